@@ -1,0 +1,2 @@
+//! Snell.
+fn main() {}
