@@ -12,6 +12,6 @@ pub mod warp;
 
 pub use bounds::Bounds;
 pub use frame::Frame;
-pub use glam::{Affine3A, DAffine3, DMat3, DVec2, DVec3, UVec2, Vec2, Vec3};
+pub use glam::{Affine3A, DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 pub use ray::Ray;
 pub use rgb::Rgb;
