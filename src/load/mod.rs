@@ -11,7 +11,7 @@ use crate::ir::material::{Input, MaterialKind, MetalColor};
 use crate::ir::{Handle, Material, Scene, ShapeKind, Texture, TextureKind};
 use crate::source::{Files, SourceMap, Span};
 pub use error::LoadError;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -71,6 +71,7 @@ pub fn load<'a>(
         problems,
         loaded: Loaded { scene, meshes: FxHashMap::default(), pictures: FxHashMap::default() },
         models: FxHashMap::default(),
+        seen: FxHashSet::default(),
         failed: false,
     };
     for object in &scene.objects {
@@ -95,6 +96,8 @@ struct Loader<'a, 'b> {
     loaded: Loaded<'a>,
     /// Meshes by path, so that a file named twice is read once; `None` for one that was reported.
     models: FxHashMap<PathBuf, Option<Arc<LoadedMesh>>>,
+    /// Materials whose textures are known: many objects and mixes share one.
+    seen: FxHashSet<usize>,
     failed: bool,
 }
 
@@ -184,6 +187,9 @@ impl Loader<'_, '_> {
     }
 
     fn material(&mut self, handle: Handle<Material>) {
+        if !self.seen.insert(handle.index()) {
+            return;
+        }
         match &self.loaded.scene.materials[handle].kind {
             MaterialKind::Diffuse { color } | MaterialKind::Mirror { color } => self.input(color),
             MaterialKind::Phong { diffuse, specular, .. } => {
