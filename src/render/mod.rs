@@ -2,5 +2,6 @@
 //!
 //! Opaque `u32` ids lead back to where a thing was written; `lower` holds that table.
 
+pub mod accel;
 pub mod geometry;
 pub mod shape;

@@ -1,5 +1,9 @@
 //! What can be hit.
 
+pub mod solid;
+pub mod sphere;
+pub mod triangle;
+
 use crate::math::{DAffine3, DVec2, Vec2, Vec3};
 
 /// Index of a material in the world.
@@ -28,6 +32,13 @@ pub struct Mesh {
     pub object_from_world: DAffine3,
     /// Where it came from.
     pub source: SourceId,
+}
+
+impl Mesh {
+    /// The positions of the vertices of a triangle.
+    pub fn corners(&self, triangle: [u32; 3]) -> [Vec3; 3] {
+        triangle.map(|vertex| self.positions[vertex as usize])
+    }
 }
 
 /// A shape that is intersected exactly, in double precision, in its own frame.
