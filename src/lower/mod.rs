@@ -1,1 +1,3 @@
 //! (to come)
+pub mod curve;
+pub mod tessellate;
