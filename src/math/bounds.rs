@@ -47,6 +47,20 @@ impl Bounds {
         Self::new(self.min.min(other.min), self.max.max(other.max))
     }
 
+    /// What both hold.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Self {
+        Self::new(self.min.max(other.min), self.max.min(other.max))
+    }
+
+    /// The parts below and above a plane orthogonal to `axis`, which cuts the box.
+    pub fn split(self, axis: usize, position: f32) -> [Self; 2] {
+        let (mut low, mut high) = (self, self);
+        low.max[axis] = position;
+        high.min[axis] = position;
+        [low, high]
+    }
+
     /// Whether the box holds no point.
     pub fn is_empty(self) -> bool {
         self.min.cmpgt(self.max).any()

@@ -61,3 +61,8 @@ pub fn exp_m1(x: f32) -> f32 {
 pub fn ln_1p(x: f32) -> f32 {
     libm::log1pf(x)
 }
+
+/// The angle of the vector `(x, y)` from the x axis, in (−π, π], in double precision.
+pub fn atan2_64(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}

@@ -5,7 +5,7 @@ mod surface;
 
 pub use sampling::{AreaSample, DirectionSample};
 
-use super::accel::Tree;
+use super::accel::{Items, Wide, partition};
 use super::shape::solid::{PlacedSolid, SolidHit};
 use super::shape::{MaterialId, Mesh, Solid, SourceId};
 use crate::math::{Bounds, Ray, Vec2, Vec3};
@@ -57,7 +57,7 @@ pub struct Geometry {
     /// The first primitive of each mesh, then the first of the solids.
     first_prims: Vec<u32>,
     solids: Vec<PlacedSolid>,
-    tree: Tree,
+    tree: Wide,
     /// Solids that no box holds; every ray tries them all.
     unbounded: Vec<u32>,
 }
@@ -83,8 +83,10 @@ impl Geometry {
         }
         let bounds: Vec<_> = solids.iter().map(PlacedSolid::bounds).collect();
         let unbounded = (0..).zip(&bounds).filter(|(_, bounds)| bounds.is_none()).map(|(i, _)| i).collect();
-        let bounded: Vec<_> = (0..).zip(bounds).filter_map(|(i, bounds)| Some((i, bounds?))).collect();
-        let tree = Tree::build(&triangles, &bounded);
+        let (bounded, boxes): (Vec<_>, Vec<_>) =
+            (0..).zip(bounds).filter_map(|(i, bounds)| Some((i, bounds?))).unzip();
+        let partition = partition(&Items { triangles: &triangles, boxes: &boxes });
+        let tree = Wide::collapse(&partition, &triangles, &bounded);
         Self { meshes, first_prims, solids, tree, unbounded }
     }
 
@@ -135,15 +137,21 @@ impl Geometry {
         for &solid in &self.unbounded {
             nearest.offer(self.hit_solid(solid, ray));
         }
-        self.tree.closest(ray, &mut nearest, |solid, ray| self.hit_solid(solid, ray));
+        self.tree.trace::<false>(ray, &mut nearest, |solid, ray| self.hit_solid(solid, ray));
         nearest.hit
     }
 
     /// Whether anything lies in the open interval (0, `ray.t_max`).
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        is_sane(ray)
-            && (self.unbounded.iter().any(|&solid| self.hit_solid(solid, ray).is_some())
-                || self.tree.any(ray, |solid, ray| self.hit_solid(solid, ray)))
+        if !is_sane(ray) {
+            return false;
+        }
+        if self.unbounded.iter().any(|&solid| self.hit_solid(solid, ray).is_some()) {
+            return true;
+        }
+        let mut nearest = Nearest { t: ray.t_max, hit: None };
+        self.tree.trace::<true>(ray, &mut nearest, |solid, ray| self.hit_solid(solid, ray));
+        nearest.hit.is_some()
     }
 
     fn hit_solid(&self, solid: u32, ray: &Ray) -> Option<Hit> {

@@ -92,7 +92,9 @@ impl Lobe {
     pub(super) fn albedo(&self, wo: Vec3) -> f32 {
         match *self {
             Self::Lambert { albedo } | Self::Phong { albedo, .. } => albedo.mean(),
-            Self::Conductor { f0, f90, .. } | Self::Mirror { f0, f90 } => mirror::schlick(f0, f90, wo.z).mean(),
+            Self::Conductor { f0, f90, .. } | Self::Mirror { f0, f90 } => {
+                mirror::schlick(f0, f90, wo.z).mean()
+            }
             Self::Dielectric { share, .. } => share,
         }
     }

@@ -1,7 +1,7 @@
 //! Materials: how the surfaces of a world scatter and emit, before a point on them is known.
 
-use super::{Bsdf, Lobe};
 use super::conductor::MIRROR_ALPHA;
+use super::{Bsdf, Lobe};
 use crate::math::Rgb;
 use crate::render::geometry::SurfacePoint;
 pub use crate::render::shape::MaterialId;

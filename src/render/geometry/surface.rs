@@ -1,6 +1,6 @@
 //! From a hit to the full surface point, and rays that leave it.
 
-use super::{Geometry, Hit, Prim, PrimId, SurfacePoint};
+use super::{AreaSample, Geometry, Hit, Prim, PrimId, SurfacePoint};
 use crate::math::{DVec3, Ray, Vec2, Vec3, float};
 use crate::render::shape::Mesh;
 use crate::render::shape::solid::{SolidHit, orthogonal_tangent};
@@ -29,6 +29,13 @@ impl SurfacePoint {
         let o = offset(self.p, self.p_error, self.n, target - self.p);
         let end = offset(target, target_error, target_n, o - target);
         Ray { o, d: end - o, t_max: 1.0 }
+    }
+}
+
+impl AreaSample {
+    /// The ray that leaves along `dir`, from an origin that lies beyond the rounding errors of the surface.
+    pub fn spawn(&self, dir: Vec3) -> Ray {
+        Ray::new(offset(self.p, self.p_error, self.n, dir), dir)
     }
 }
 
