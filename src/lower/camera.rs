@@ -28,7 +28,8 @@ pub fn camera(camera: &ir::Camera, loaded: &Loaded<'_>, center: DVec3) -> Result
     let lens = match &camera.lens {
         Lens::Pinhole { .. } => None,
         Lens::Thin { radius, focus, blades, rotation, .. } => {
-            let distance = focus.as_ref().map(|focus| focus_distance(focus, camera, forward, loaded)).transpose()?;
+            let distance =
+                focus.as_ref().map(|focus| focus_distance(focus, camera, forward, loaded)).transpose()?;
             distance.map(|distance| LensSpec {
                 radius: radius.value as f32,
                 focus_distance: distance as f32,

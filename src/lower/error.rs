@@ -21,7 +21,10 @@ pub enum LowerError {
     },
     /// Nothing to focus on, or behind the lens.
     #[error("the lens cannot focus there: {reason}")]
-    #[diagnostic(code(snell::lower::bad_focus), help("focus on something in front of the camera, or give a distance: `focus: 2m`"))]
+    #[diagnostic(
+        code(snell::lower::bad_focus),
+        help("focus on something in front of the camera, or give a distance: `focus: 2m`")
+    )]
     BadFocus {
         /// Why not.
         reason: String,

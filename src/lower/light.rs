@@ -28,9 +28,16 @@ impl Lowering<'_> {
                 let radiance = radiance(light.brightness.value, light.color, area);
                 let material = self.materials.add(Material::Emissive { radiance, two_sided: false });
                 let scale = DVec3::splat(radius.value);
-                let world_from_object = DAffine3::from_translation(*center - self.center) * DAffine3::from_scale(scale);
+                let world_from_object =
+                    DAffine3::from_translation(*center - self.center) * DAffine3::from_scale(scale);
                 let texture_from_object = DAffine3::IDENTITY;
-                self.solids.push(Solid { kind: SolidKind::Sphere, world_from_object, texture_from_object, material, source });
+                self.solids.push(Solid {
+                    kind: SolidKind::Sphere,
+                    world_from_object,
+                    texture_from_object,
+                    material,
+                    source,
+                });
             }
             LightKind::Rect { origin, edge_u, edge_v, two_sided } => {
                 let sides = if *two_sided { 2.0 } else { 1.0 };

@@ -10,8 +10,8 @@ use crate::math::{Rgb, rgb};
 use crate::render::bsdf::{self, Material};
 use crate::render::light::{Environment, EnvironmentRadiance as Radiance};
 use crate::render::shape::MaterialId;
-use crate::render::texture::{CheckerKind, Image, ImageFilter, ImageTexture, Texture, TextureId, Wrap};
 use crate::render::texture;
+use crate::render::texture::{CheckerKind, Image, ImageFilter, ImageTexture, Texture, TextureId, Wrap};
 use crate::source::Files;
 use rustc_hash::FxHashMap;
 use std::path::PathBuf;
@@ -147,7 +147,8 @@ impl<'a> Materials<'a> {
 
     /// MTL says little: it shines, is see-through, has a highlight, or is matt.
     fn lower_model(&mut self, material: &ModelMaterial, map: Option<&PictureFile>) -> Material {
-        let color = |written: Option<[f32; 3]>| written.map(Rgb::from).filter(|c| c.is_valid() && !c.is_black());
+        let color =
+            |written: Option<[f32; 3]>| written.map(Rgb::from).filter(|c| c.is_valid() && !c.is_black());
         if let Some(radiance) = color(material.emission) {
             return Material::Emissive { radiance, two_sided: false };
         }
@@ -247,7 +248,11 @@ impl<'a> Materials<'a> {
                 Radiance::Image(self.image(&file)?)
             }
         };
-        Some(Environment { radiance, scale: environment.scale.value as f32, rotation: environment.rotation as f32 })
+        Some(Environment {
+            radiance,
+            scale: environment.scale.value as f32,
+            rotation: environment.rotation as f32,
+        })
     }
 
     fn image(&mut self, file: &PictureFile) -> Option<Arc<Image>> {

@@ -59,9 +59,7 @@ pub fn lower(
     }
     let lights = loaded.scene.lights.iter().filter_map(|light| lowering.light(light)).collect();
     let environment = loaded.scene.environment.as_ref().and_then(|e| lowering.materials.environment(e));
-    let camera = camera::camera(camera, loaded, center)
-        .map_err(|error| problems.push(error))
-        .ok();
+    let camera = camera::camera(camera, loaded, center).map_err(|error| problems.push(error)).ok();
 
     let Lowering { materials, meshes, solids, sources, .. } = lowering;
     let (materials, textures, failed) = materials.finish();

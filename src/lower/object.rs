@@ -54,8 +54,11 @@ impl Lowering<'_> {
         let similar = is_similarity(&object.world_from_object);
         Some(match &shape.kind {
             ShapeKind::Sphere { center, radius } => {
-                let object_from_solid =
-                    DAffine3::from_scale_rotation_translation(DVec3::splat(radius.value), glam::DQuat::IDENTITY, *center);
+                let object_from_solid = DAffine3::from_scale_rotation_translation(
+                    DVec3::splat(radius.value),
+                    glam::DQuat::IDENTITY,
+                    *center,
+                );
                 Form::Exact { kind: SolidKind::Sphere, object_from_solid }
             }
             ShapeKind::Plane { normal, offset } => {
@@ -65,7 +68,10 @@ impl Lowering<'_> {
             }
             ShapeKind::Disk { center, normal, radius } if similar || !emits => {
                 let frame = frame_about(normal.value.normalize()) * radius.value;
-                Form::Exact { kind: SolidKind::Disk, object_from_solid: DAffine3::from_mat3_translation(frame, *center) }
+                Form::Exact {
+                    kind: SolidKind::Disk,
+                    object_from_solid: DAffine3::from_mat3_translation(frame, *center),
+                }
             }
             ShapeKind::Disk { center, normal, radius } => {
                 Form::Triangles(round_plate(*center, normal.value.normalize(), radius.value))
@@ -74,7 +80,9 @@ impl Lowering<'_> {
                 Form::Triangles(Triangles::quad(*origin, edge_u.value, edge_v.value))
             }
             ShapeKind::Box { min, max } => Form::Triangles(Triangles::cuboid(min.value, max.value)),
-            ShapeKind::Triangle { corners } => Form::Triangles(Triangles::triangle(corners.map(|corner| corner.value))),
+            ShapeKind::Triangle { corners } => {
+                Form::Triangles(Triangles::triangle(corners.map(|corner| corner.value)))
+            }
             ShapeKind::Mesh { scale, smooth, .. } => {
                 Form::Parts(self.loaded.mesh(object.shape)?.clone(), scale.value, *smooth)
             }
@@ -89,7 +97,9 @@ impl Lowering<'_> {
                         Form::Exact { kind, object_from_solid: DAffine3::IDENTITY }
                     }
                     // Light is drawn from triangles: an exact surface of revolution has no formula for it.
-                    RevolveMethod::Exact => Form::Triangles(Triangles::revolve(&pieces, self.tolerance(object, None))),
+                    RevolveMethod::Exact => {
+                        Form::Triangles(Triangles::revolve(&pieces, self.tolerance(object, None)))
+                    }
                     RevolveMethod::Tessellated(tolerance) => {
                         let tolerance = self.tolerance(object, tolerance.map(|tolerance| tolerance.value));
                         Form::Triangles(Triangles::revolve(&pieces, tolerance))
@@ -133,9 +143,16 @@ impl Lowering<'_> {
     }
 
     /// Adds triangles to the world.
-    pub(super) fn mesh(&mut self, shape: &Triangles, world_from_object: &DAffine3, material: MaterialId, source: SourceId) {
+    pub(super) fn mesh(
+        &mut self,
+        shape: &Triangles,
+        world_from_object: &DAffine3,
+        material: MaterialId,
+        source: SourceId,
+    ) {
         let to_world = DAffine3::from_translation(-self.center) * *world_from_object;
-        let positions: Vec<_> = shape.positions.iter().map(|&p| to_world.transform_point3(p).as_vec3()).collect();
+        let positions: Vec<_> =
+            shape.positions.iter().map(|&p| to_world.transform_point3(p).as_vec3()).collect();
         let mirrored = to_world.matrix3.determinant() < 0.0;
         let turn = |t: [u32; 3]| if mirrored { [t[0], t[2], t[1]] } else { t };
         let solid = |t: &[u32; 3]| {
@@ -155,7 +172,9 @@ impl Lowering<'_> {
 
     fn material(&mut self, written: Option<ir::Handle<ir::Material>>, area: f64) -> MaterialId {
         match written {
-            Some(handle) => self.materials.of_scene(handle, &|brightness, color| radiance(brightness, color, area)),
+            Some(handle) => {
+                self.materials.of_scene(handle, &|brightness, color| radiance(brightness, color, area))
+            }
             None => self.materials.gray(),
         }
     }
@@ -163,7 +182,8 @@ impl Lowering<'_> {
 
 /// Normals by the cofactor matrix, which is the inverse transpose up to scale and also serves flat transforms.
 fn world_normals(normals: &[DVec3], m: &DMat3) -> Vec<crate::math::Vec3> {
-    let cofactor = DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+    let cofactor =
+        DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
     let sign = m.determinant().signum();
     normals.iter().map(|&n| (cofactor * n * sign).normalize_or_zero().as_vec3()).collect()
 }
@@ -171,7 +191,11 @@ fn world_normals(normals: &[DVec3], m: &DMat3) -> Vec<crate::math::Vec3> {
 /// A right-handed frame whose z axis is the unit vector `n`; for `n` along an axis, its own axes are axes too.
 fn frame_about(n: DVec3) -> DMat3 {
     let reference = if n.y.abs() > 0.9 { DVec3::X } else { DVec3::Y };
-    let x = if n.y.abs() > 0.9 { (reference - n * n.dot(reference)).normalize() } else { reference.cross(n).normalize() };
+    let x = if n.y.abs() > 0.9 {
+        (reference - n * n.dot(reference)).normalize()
+    } else {
+        reference.cross(n).normalize()
+    };
     DMat3::from_cols(x, n.cross(x), n)
 }
 
@@ -183,7 +207,8 @@ fn round_plate(center: DVec3, normal: DVec3, radius: f64) -> Triangles {
         DVec2::new(cos, sin)
     };
     let points = std::iter::once(DVec2::ZERO).chain((0..EDGES).map(rim));
-    let (positions, uvs) = points.map(|p| (center + frame * (p * radius).extend(0.0), (p.as_vec2() + 1.0) / 2.0)).unzip();
+    let (positions, uvs) =
+        points.map(|p| (center + frame * (p * radius).extend(0.0), (p.as_vec2() + 1.0) / 2.0)).unzip();
     let indices = (0..EDGES).map(|i| [0, 1 + i, 1 + (i + 1) % EDGES]).collect();
     Triangles { positions, indices, normals: None, uvs: Some(uvs) }
 }

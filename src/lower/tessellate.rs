@@ -83,9 +83,11 @@ impl Triangles {
     /// An outline with holes, in the xy plane, drawn out from z = 0 to `depth`.
     pub fn extrude(outline: &Outline, holes: &[Outline], depth: f64, tolerance: f64) -> Self {
         let outer = curve::outline(outline, tolerance);
-        let holes: Vec<Vec<OutlinePoint>> = holes.iter().map(|hole| curve::outline(hole, tolerance)).collect();
+        let holes: Vec<Vec<OutlinePoint>> =
+            holes.iter().map(|hole| curve::outline(hole, tolerance)).collect();
         let flat = |points: &[OutlinePoint]| points.iter().map(|o| o.p).collect::<Vec<DVec2>>();
-        let caps = triangulate_region(&flat(&outer), &holes.iter().map(|hole| flat(hole)).collect::<Vec<_>>());
+        let caps =
+            triangulate_region(&flat(&outer), &holes.iter().map(|hole| flat(hole)).collect::<Vec<_>>());
         let all: Vec<DVec2> = std::iter::once(&outer).chain(&holes).flat_map(|points| flat(points)).collect();
 
         let mut out = Self { normals: Some(Vec::new()), uvs: Some(Vec::new()), ..Self::default() };

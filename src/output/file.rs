@@ -120,12 +120,19 @@ impl Target {
 ///
 /// # Errors
 /// Whatever the writer says.
-pub fn encode(out: &mut (impl Write + Seek), format: Format, frame: &Frame, display: &Display) -> io::Result<()> {
+pub fn encode(
+    out: &mut (impl Write + Seek),
+    format: Format,
+    frame: &Frame,
+    display: &Display,
+) -> io::Result<()> {
     let (width, height) = (frame.width, frame.height);
     match format {
         Format::Png => {
             let bytes = display.develop(&frame.radiance).concat();
-            PngEncoder::new(out).write_image(&bytes, width, height, ExtendedColorType::Rgb8).map_err(io::Error::other)
+            PngEncoder::new(out)
+                .write_image(&bytes, width, height, ExtendedColorType::Rgb8)
+                .map_err(io::Error::other)
         }
         Format::Ppm => {
             write!(out, "P6\n{width} {height}\n255\n")?;
@@ -133,7 +140,8 @@ pub fn encode(out: &mut (impl Write + Seek), format: Format, frame: &Frame, disp
         }
         Format::Exr => exr::encode(out, frame),
         Format::Hdr => {
-            let pixels: Vec<_> = frame.radiance.iter().map(|pixel: &Rgb| ImageRgb(pixel.to_array())).collect();
+            let pixels: Vec<_> =
+                frame.radiance.iter().map(|pixel: &Rgb| ImageRgb(pixel.to_array())).collect();
             HdrEncoder::new(out).encode(&pixels, width as usize, height as usize).map_err(io::Error::other)
         }
     }
@@ -160,11 +168,16 @@ mod tests {
         for (name, format) in Format::ALL {
             let mut bytes = io::Cursor::new(Vec::new());
             encode(&mut bytes, format, &frame(), &DISPLAY).unwrap();
-            let back = image::load_from_memory(bytes.get_ref()).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let back =
+                image::load_from_memory(bytes.get_ref()).unwrap_or_else(|error| panic!("{name}: {error}"));
             assert_eq!((back.width(), back.height()), (2, 2), "{name}");
             match format {
-                Format::Png | Format::Ppm => assert_eq!(back.to_rgb8().get_pixel(0, 0).0, [255, 188, 0], "{name}"),
-                Format::Exr | Format::Hdr => assert_eq!(back.to_rgb32f().get_pixel(1, 0).0, [4.0; 3], "{name}"),
+                Format::Png | Format::Ppm => {
+                    assert_eq!(back.to_rgb8().get_pixel(0, 0).0, [255, 188, 0], "{name}")
+                }
+                Format::Exr | Format::Hdr => {
+                    assert_eq!(back.to_rgb32f().get_pixel(1, 0).0, [4.0; 3], "{name}")
+                }
             }
         }
     }
