@@ -100,6 +100,8 @@ pub struct SourceFile {
     pub text: Arc<str>,
     /// The offset of the text's first byte.
     pub base: u32,
+    /// The place that names this file, `None` for the main one.
+    pub included_from: Option<Span>,
     line_starts: Vec<u32>,
 }
 
@@ -158,8 +160,13 @@ impl SourceMap {
         u32::try_from(text.len()).ok()?.checked_add(base)?.checked_add(1)?;
         let ends = text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n').map(|(i, _)| i as u32 + 1);
         let line_starts = std::iter::once(0).chain(ends).collect();
-        self.files.push(SourceFile { name, path, text, base, line_starts });
+        self.files.push(SourceFile { name, path, text, base, included_from: None, line_starts });
         Some(FileId(self.files.len() as u32 - 1))
+    }
+
+    /// Says which place named a file.
+    pub fn set_included_from(&mut self, id: FileId, place: Span) {
+        self.files[id.0 as usize].included_from = Some(place);
     }
 
     /// The file with this index.
