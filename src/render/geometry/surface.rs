@@ -80,12 +80,15 @@ pub(super) fn triangle_point(mesh: &Mesh, corners: [u32; 3], b: Vec2, prim: Prim
 }
 
 /// The point of a triangle with barycentrics `b`, and the bound γ(7)·Σ|bᵢ·vᵢ| on its error.
+///
+/// The largest axis stands for all three: the triangle test shears the axes into each other, so that a point of the
+/// plane z = 0, where no z is ever rounded, still needs the room that x and y call for.
 pub(super) fn interpolate_point(positions: [Vec3; 3], b: Vec2) -> (Vec3, Vec3) {
     let b = weights(b);
     let terms = [0, 1, 2].map(|i| positions[i].as_dvec3() * b[i]);
     let p = terms[0] + terms[1] + terms[2];
     let error = (terms[0].abs() + terms[1].abs() + terms[2].abs()) * f64::from(float::gamma(7));
-    (p.as_vec3(), error.as_vec3())
+    (p.as_vec3(), Vec3::splat(error.max_element() as f32))
 }
 
 /// All three barycentrics from the last two.
