@@ -1,1 +1,10 @@
-//! (to come)
+//! Mistakes and how they are shown.
+//!
+//! Each phase describes its mistakes in its own `error.rs` (an enum that derives `thiserror::Error` and
+//! `miette::Diagnostic`), and notes them in [`Problems`]. [`Report`] puts them in source order and renders them.
+
+mod problems;
+mod suggest;
+
+pub use problems::{Problem, Problems, Severity, Trail};
+pub use suggest::{did_you_mean, nearest};

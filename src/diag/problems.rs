@@ -1,0 +1,87 @@
+//! What has gone wrong so far.
+
+use crate::source::Span;
+use miette::Diagnostic;
+
+/// How bad a problem is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Severity {
+    /// Suspicious: the scene is rendered all the same.
+    Warning,
+    /// Wrong: no ray is shot.
+    Error,
+}
+
+/// A step on the way to a mistake: "included from here", "in this call of `ring`".
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Trail {
+    /// Where the step was taken.
+    pub span: Span,
+    /// What the step was.
+    pub text: String,
+}
+
+/// One mistake: what the phase says of it, and the way that led there.
+pub struct Problem {
+    /// The mistake in its phase's own words: message, code, labels, help.
+    pub error: Box<dyn Diagnostic + Send + Sync + 'static>,
+    /// The steps that led there, the nearest first.
+    pub trail: Vec<Trail>,
+}
+
+impl Problem {
+    /// Warnings say so themselves; everything else is an error.
+    pub fn severity(&self) -> Severity {
+        match self.error.severity() {
+            Some(miette::Severity::Warning | miette::Severity::Advice) => Severity::Warning,
+            _ => Severity::Error,
+        }
+    }
+
+    /// The stable code, such as `snell::resolve::unknown_name`.
+    pub fn code(&self) -> String {
+        self.error.code().map(|code| code.to_string()).unwrap_or_default()
+    }
+
+    /// The offset of the primary label (the first one), by which reports are ordered.
+    pub fn offset(&self) -> usize {
+        self.error.labels().and_then(|mut labels| labels.next()).map_or(usize::MAX, |label| label.offset())
+    }
+}
+
+/// The mistakes noted so far. No phase stops at one.
+#[derive(Default)]
+pub struct Problems {
+    list: Vec<Problem>,
+    error_count: usize,
+}
+
+impl Problems {
+    /// Notes a mistake.
+    pub fn push(&mut self, error: impl Diagnostic + Send + Sync + 'static) {
+        self.push_with_trail(error, Vec::new());
+    }
+
+    /// Notes a mistake and the steps that led there.
+    pub fn push_with_trail(&mut self, error: impl Diagnostic + Send + Sync + 'static, trail: Vec<Trail>) {
+        let problem = Problem { error: Box::new(error), trail };
+        self.error_count += usize::from(problem.severity() == Severity::Error);
+        self.list.push(problem);
+    }
+
+    /// Whether anything is wrong, not merely suspicious.
+    pub fn has_errors(&self) -> bool {
+        self.error_count > 0
+    }
+
+    /// What was noted, in the order of noting.
+    pub fn list(&self) -> &[Problem] {
+        &self.list
+    }
+
+    /// What was noted, in source order; mistakes without a place come last, equal places in the order of noting.
+    pub fn into_sorted(mut self) -> Vec<Problem> {
+        self.list.sort_by_key(Problem::offset);
+        self.list
+    }
+}

@@ -1,0 +1,62 @@
+//! What can be hit.
+
+use crate::math::{DAffine3, DVec2, Vec2, Vec3};
+
+/// Index of a material in the world.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct MaterialId(pub u32);
+
+/// Index of a scene object: leads back to where it was written.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
+pub struct SourceId(pub u32);
+
+/// Triangles that share vertices, in world space.
+///
+/// The geometric normal of a triangle is `(b − a) × (c − a)`: counter-clockwise seen from outside.
+pub struct Mesh {
+    /// Vertex positions, in metres. Finite.
+    pub positions: Vec<Vec3>,
+    /// Three vertex indices a triangle; none of zero area.
+    pub triangles: Vec<[u32; 3]>,
+    /// Unit shading normals, one a vertex; `None` for flat shading.
+    pub normals: Option<Vec<Vec3>>,
+    /// Texture points, one a vertex; `None` means the barycentrics stand in.
+    pub uvs: Option<Vec<Vec2>>,
+    /// What it is made of.
+    pub material: MaterialId,
+    /// Object space from world space, for textures projected in object space.
+    pub object_from_world: DAffine3,
+    /// Where it came from.
+    pub source: SourceId,
+}
+
+/// A shape that is intersected exactly, in double precision, in its own frame.
+pub struct Solid {
+    /// Which, in object space.
+    pub kind: SolidKind,
+    /// World space from object space; not singular. May mirror.
+    pub world_from_object: DAffine3,
+    /// What it is made of.
+    pub material: MaterialId,
+    /// Where it came from.
+    pub source: SourceId,
+}
+
+/// The exact shapes, each in the frame where it is simplest.
+pub enum SolidKind {
+    /// The unit sphere about the origin; normals outwards; u by longitude from +x towards +z about +y, v from the south pole.
+    Sphere,
+    /// The unit disk in the plane z = 0; normal +z; uv = (x, y) mapped from [−1, 1]² to [0, 1]².
+    Disk,
+    /// The plane z = 0, without end; normal +z; uv = (x, y), in object units.
+    Plane,
+    /// A profile turned about the y axis; normals to the right of the profile's direction of travel (outwards when the profile runs upwards).
+    Revolve(Profile),
+}
+
+/// Cubic Bézier pieces of the curve (radius, height) in the half-plane radius ≥ 0.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Profile {
+    /// Control points of each piece; a piece begins where the one before ended. Straight lines are cubics too.
+    pub pieces: Vec<[DVec2; 4]>,
+}
