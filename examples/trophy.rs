@@ -53,21 +53,16 @@ fn body() -> Mesh {
         [0.19, 0.54], [0.15, 0.42], [0.11, 0.36],
         [0.08, 0.31], [0.04, 0.29], [0.0, 0.29],
     ];
-    // Twenty flutes grow out of the stem and fade below the shoulder; the inside stays round.
-    let flutes = |angle: f32, height: f32, outside: bool| {
-        let reach = smoothstep(0.25, 0.33, height) * (1.0 - smoothstep(0.4, 0.6, height));
-        if outside { 1.0 + 0.075 * reach * (10.0 * angle).sin().abs() } else { 1.0 }
-    };
     let points = bezier_chain(&profile, 6);
     let rim = points.iter().map(|p| p[1]).fold(0.0, f32::max);
-    let turn = points.iter().position(|p| p[1] == rim).unwrap_or(points.len());
-    let (outside, inside) = points.split_at(turn);
+    let inside_from = points.iter().position(|p| p[1] == rim).unwrap_or(points.len());
 
-    // The two skins share the row at the rim, so they are turned as one profile: heights inside are marked by sign.
-    let marked: Vec<[f32; 2]> = outside.iter().copied().chain(inside.iter().map(|&[r, h]| [r, -h])).collect();
-    let mut mesh = revolve(&marked, 100, |angle, height| flutes(angle, height.abs(), 0.0 <= height));
-    mesh.positions.iter_mut().for_each(|p| p.y = p.y.abs());
-    mesh
+    // Twenty flutes grow out of the stem and fade below the shoulder; the inside stays round.
+    revolve(&points, 100, |angle, i| {
+        let height = points[i][1];
+        let reach = smoothstep(0.25, 0.33, height) * (1.0 - smoothstep(0.42, 0.64, height));
+        if i < inside_from { 1.0 + 0.1 * reach * (10.0 * angle).sin().abs() } else { 1.0 }
+    })
 }
 
 /// The handle on the side of +x: out of the lower bowl, up in a wide ear, over the rim and down onto the shoulder.

@@ -33,22 +33,23 @@ pub fn bezier_chain(controls: &[[f32; 2]], steps: usize) -> Vec<[f32; 2]> {
     points
 }
 
-/// Turns a profile of (radius, height) about the y axis, `around` steps to the turn. `stretch(angle, height)` widens
-/// the radius: 1 for a plain body of revolution. A profile that starts and ends on the axis gives a closed solid.
+/// Turns a profile of (radius, height) about the y axis, `around` steps to the turn. `stretch(angle, i)` widens the
+/// radius of the profile's point `i`: 1 for a plain body of revolution. A profile that starts and ends on the axis gives a closed solid.
 ///
 /// The profile runs from the bottom axis point outwards and up, so that the faces look outwards.
-pub fn revolve(profile: &[[f32; 2]], around: usize, stretch: impl Fn(f32, f32) -> f32) -> Mesh {
+pub fn revolve(profile: &[[f32; 2]], around: usize, stretch: impl Fn(f32, usize) -> f32) -> Mesh {
     let mut mesh = Mesh::default();
     let rows: Vec<Vec<u32>> = profile
         .iter()
-        .map(|&[radius, height]| {
+        .enumerate()
+        .map(|(i, &[radius, height])| {
             // On the axis the whole row is one vertex.
             if radius == 0.0 {
                 return vec![mesh.vertex(Vec3::Y * height); around];
             }
             let angle = |j: usize| j as f32 / around as f32 * TAU;
             let point = |a: f32| {
-                let r = radius * stretch(a, height);
+                let r = radius * stretch(a, i);
                 Vec3::new(r * a.sin(), height, r * a.cos())
             };
             (0..around).map(|j| mesh.vertex(point(angle(j)))).collect()
