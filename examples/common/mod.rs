@@ -6,6 +6,7 @@ pub mod field;
 pub mod mesh;
 pub mod noise;
 pub mod paint;
+pub mod sky;
 
 use std::path::PathBuf;
 
