@@ -29,8 +29,8 @@ fn main() -> io::Result<()> {
     for panel in panels() {
         ball.sew(&panel);
     }
-    let volume = ball.mesh.closed_volume().map_err(io::Error::other)?;
-    println!("closed, volume {volume:.4} of {:.4}", std::f32::consts::PI * 4.0 / 3.0);
+    let volume = ball.mesh.manifold_volume().map_err(io::Error::other)?;
+    println!("a manifold, volume {volume:.4} of {:.4}", std::f32::consts::PI * 4.0 / 3.0);
     ball.mesh.save("football", "A football, by examples/football.rs", Normals::Crease(1.0), &PAINTS)
 }
 

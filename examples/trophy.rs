@@ -17,8 +17,8 @@ fn main() -> io::Result<()> {
     let body = body();
     let handle = handle();
     for (name, part) in [("body", &body), ("handle", &handle)] {
-        let volume = part.closed_volume().map_err(|why| io::Error::other(format!("{name}: {why}")))?;
-        println!("{name}: closed, volume {volume:.5}");
+        let volume = part.manifold_volume().map_err(|why| io::Error::other(format!("{name}: {why}")))?;
+        println!("{name}: a manifold, volume {volume:.5}");
     }
     let mut cup = body;
     cup.append(&handle, Affine3A::IDENTITY);

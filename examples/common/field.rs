@@ -153,7 +153,7 @@ fn crossing(grid: &Grid, values: &[f32], cell: [usize; 3]) -> Option<Vec3> {
     (0.0 < count).then(|| sum / count)
 }
 
-/// Moves a point towards the zero level by a few Newton steps along the gradient, at most half a cell in all, so that
+/// Moves a point towards the zero level by a few Newton steps along the gradient, at most a third of a cell in all, so that
 /// neighbours keep their order.
 fn settle(start: Vec3, cell: f32, field: &impl Fn(Vec3) -> f32) -> Vec3 {
     let h = cell * 0.05;
@@ -162,7 +162,7 @@ fn settle(start: Vec3, cell: f32, field: &impl Fn(Vec3) -> f32) -> Vec3 {
         let slope = |axis: Vec3| (field(p + axis * h) - field(p - axis * h)) / (2.0 * h);
         let gradient = Vec3::new(slope(Vec3::X), slope(Vec3::Y), slope(Vec3::Z));
         p -= gradient * (field(p) / gradient.length_squared().max(0.1));
-        p = start + (p - start).clamp_length_max(cell / 2.0);
+        p = start + (p - start).clamp_length_max(cell * 0.33);
     }
     p
 }

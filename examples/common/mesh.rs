@@ -44,21 +44,21 @@ impl Mesh {
         self.positions.len() as u32 - 1
     }
 
-    /// Adds a polygon of the first material. A corner that repeats is dropped, and what is left of a face with
-    /// fewer than three corners: rows that meet in a point need no special case.
+    /// Adds a triangle or quad of the first material. Neighbouring corners that coincide count once, and a face that
+    /// this folds flat is left out: rows that meet in a point need no special case.
     pub fn face(&mut self, corners: &[u32]) {
         self.painted_face(corners, 0);
     }
 
     /// As [`Mesh::face`], of the given material.
     pub fn painted_face(&mut self, corners: &[u32], material: usize) {
-        let mut kept: Vec<u32> = Vec::with_capacity(corners.len());
-        for &corner in corners {
-            if !kept.contains(&corner) {
-                kept.push(corner);
-            }
+        let mut kept = corners.to_vec();
+        kept.dedup();
+        while 1 < kept.len() && kept.first() == kept.last() {
+            kept.pop();
         }
-        if 3 <= kept.len() {
+        let folded = kept.len() == 4 && (kept[0] == kept[2] || kept[1] == kept[3]);
+        if 3 <= kept.len() && !folded {
             self.faces.push(Face { corners: kept, material });
         }
     }
@@ -77,6 +77,22 @@ impl Mesh {
         }
     }
 
+    /// Makes one vertex of those that round to the same multiples of `grid`, and drops the faces that vanish.
+    pub fn weld(&self, grid: f32) -> Mesh {
+        let mut welded = Mesh::default();
+        let mut known: HashMap<[i32; 3], u32> = HashMap::new();
+        let mut merge = |p: &Vec3| {
+            let key = (*p / grid).round().to_array().map(|x| x as i32);
+            *known.entry(key).or_insert_with(|| welded.vertex(*p))
+        };
+        let kept: Vec<u32> = self.positions.iter().map(&mut merge).collect();
+        for face in &self.faces {
+            let corners: Vec<u32> = face.corners.iter().map(|&c| kept[c as usize]).collect();
+            welded.painted_face(&corners, face.material);
+        }
+        welded
+    }
+
     /// Joins rows of vertices into a skin, row by row: `rows[i][j]` to `rows[i + 1][j + 1]`. `around` closes each row.
     pub fn skin(&mut self, rows: &[Vec<u32>], around: bool) {
         for pair in rows.windows(2) {
@@ -88,20 +104,33 @@ impl Mesh {
         }
     }
 
-    /// Proves that the mesh bounds a solid: every edge is shared by exactly two faces that run along it in opposite
-    /// directions, and the enclosed volume is positive, so the faces look outwards. Returns the volume.
+    /// Proves that the mesh bounds a solid: along every edge as many faces run forth as back, and the enclosed volume
+    /// is positive, so the faces look outwards. Returns the volume.
     pub fn closed_volume(&self) -> Result<f32, String> {
+        if let Some((edge, [forth, back])) = self.edge_uses().iter().find(|(_, [forth, back])| forth != back) {
+            return Err(format!("edge {edge:?} is used {forth} times forth and {back} times back"));
+        }
+        let volume = self.volume();
+        if volume <= 0.0 { Err(format!("the faces look inwards: volume {volume}")) } else { Ok(volume) }
+    }
+
+    /// As [`Mesh::closed_volume`], and every edge belongs to exactly two faces: the surface touches itself nowhere.
+    pub fn manifold_volume(&self) -> Result<f32, String> {
+        match self.edge_uses().iter().find(|(_, count)| **count != [1, 1]) {
+            Some((edge, _)) => Err(format!("edge {edge:?} does not belong to exactly two faces")),
+            None => self.closed_volume(),
+        }
+    }
+
+    /// How often faces run along each edge, from its lower vertex to its higher one and back.
+    fn edge_uses(&self) -> BTreeMap<(u32, u32), [u32; 2]> {
         let mut uses: BTreeMap<(u32, u32), [u32; 2]> = BTreeMap::new();
         for face in &self.faces {
             for (&a, &b) in face.corners.iter().zip(face.corners.iter().cycle().skip(1)) {
                 uses.entry((a.min(b), a.max(b))).or_default()[usize::from(b < a)] += 1;
             }
         }
-        if let Some((edge, [forth, back])) = uses.iter().find(|(_, count)| **count != [1, 1]) {
-            return Err(format!("edge {edge:?} is used {forth} times forth and {back} times back"));
-        }
-        let volume = self.volume();
-        if volume <= 0.0 { Err(format!("the faces look inwards: volume {volume}")) } else { Ok(volume) }
+        uses
     }
 
     /// The signed volume, by the divergence theorem over the triangles of a fan in each face.
