@@ -167,9 +167,11 @@ fn solid(drawing: &Drawing) -> Mesh {
 /// The front of the glass: a vertex for each cell that holds some glass, a quad for each grid point in the glass.
 fn front(drawing: &Drawing) -> Mesh {
     let (columns, rows) = ((1.1 / CELL) as usize, (1.3 / CELL) as usize);
-    let corner = |x: usize, y: usize| Vec2::new((x as f32 + 0.5) * CELL - 0.55, (y as f32 + 0.5) * CELL - 0.05);
+    let corner =
+        |x: usize, y: usize| Vec2::new((x as f32 + 0.5) * CELL - 0.55, (y as f32 + 0.5) * CELL - 0.05);
     let grid = |x: usize, y: usize| drawing.distance(corner(x, y)) < 0.0;
-    let mut inside: Vec<Vec<bool>> = (0..=rows).map(|y| (0..=columns).map(|x| grid(x, y)).collect()).collect();
+    let mut inside: Vec<Vec<bool>> =
+        (0..=rows).map(|y| (0..=columns).map(|x| grid(x, y)).collect()).collect();
     join_diagonals(&mut inside);
 
     let mut mesh = Mesh::default();
@@ -215,7 +217,8 @@ fn outline_point(drawing: &Drawing, center: Vec2) -> Vec2 {
     let h = CELL * 0.05;
     let mut p = center;
     for _ in 0..4 {
-        let slope = |axis: Vec2| (drawing.distance(p + axis * h) - drawing.distance(p - axis * h)) / (2.0 * h);
+        let slope =
+            |axis: Vec2| (drawing.distance(p + axis * h) - drawing.distance(p - axis * h)) / (2.0 * h);
         let gradient = Vec2::new(slope(Vec2::X), slope(Vec2::Y));
         p -= gradient * (drawing.distance(p) / gradient.length_squared().max(0.25));
         p = p.clamp(center - CELL * 0.5, center + CELL * 0.5);

@@ -102,12 +102,15 @@ fn head(q: Vec3) -> f32 {
     let brow = taper(q, (Vec3::new(-0.715, 0.955, 0.045), 0.022), (Vec3::new(-0.62, 0.985, 0.065), 0.028));
     let eye = ball(q, Vec3::new(-0.69, 0.93, 0.062), 0.024);
     let fang = taper(q, (Vec3::new(-0.82, 0.83, 0.025), 0.014), (Vec3::new(-0.825, 0.785, 0.027), 0.004));
-    let horn = chain(q, &[
-        (Vec3::new(-0.58, 0.965, 0.045), 0.032),
-        (Vec3::new(-0.50, 1.03, 0.075), 0.025),
-        (Vec3::new(-0.41, 1.06, 0.1), 0.017),
-        (Vec3::new(-0.32, 1.05, 0.11), 0.006),
-    ]);
+    let horn = chain(
+        q,
+        &[
+            (Vec3::new(-0.58, 0.965, 0.045), 0.032),
+            (Vec3::new(-0.50, 1.03, 0.075), 0.025),
+            (Vec3::new(-0.41, 1.06, 0.1), 0.017),
+            (Vec3::new(-0.32, 1.05, 0.11), 0.006),
+        ],
+    );
     let ear = taper(q, (Vec3::new(-0.565, 0.88, 0.075), 0.03), (Vec3::new(-0.46, 0.92, 0.15), 0.006));
 
     let face = smooth_union(smooth_union(skull, muzzle, 0.05), smooth_union(jaw, beard, 0.02), 0.025);
@@ -117,18 +120,24 @@ fn head(q: Vec3) -> f32 {
 
 /// The four legs, each with three claws.
 fn legs(q: Vec3) -> f32 {
-    let fore = chain(q, &[
-        (Vec3::new(-0.42, 0.36, 0.09), 0.075),
-        (Vec3::new(-0.39, 0.21, 0.155), 0.05),
-        (Vec3::new(-0.47, 0.06, 0.165), 0.034),
-        (Vec3::new(-0.51, 0.028, 0.165), 0.034),
-    ]);
-    let hind = chain(q, &[
-        (Vec3::new(0.3, 0.33, 0.1), 0.105),
-        (Vec3::new(0.2, 0.19, 0.165), 0.062),
-        (Vec3::new(0.32, 0.085, 0.165), 0.036),
-        (Vec3::new(0.24, 0.028, 0.17), 0.034),
-    ]);
+    let fore = chain(
+        q,
+        &[
+            (Vec3::new(-0.42, 0.36, 0.09), 0.075),
+            (Vec3::new(-0.39, 0.21, 0.155), 0.05),
+            (Vec3::new(-0.47, 0.06, 0.165), 0.034),
+            (Vec3::new(-0.51, 0.028, 0.165), 0.034),
+        ],
+    );
+    let hind = chain(
+        q,
+        &[
+            (Vec3::new(0.3, 0.33, 0.1), 0.105),
+            (Vec3::new(0.2, 0.19, 0.165), 0.062),
+            (Vec3::new(0.32, 0.085, 0.165), 0.036),
+            (Vec3::new(0.24, 0.028, 0.17), 0.034),
+        ],
+    );
     let claw = |ankle: Vec3, spread: f32| {
         let toe = ankle + Vec3::new(-0.065, -0.004, spread);
         chain(q, &[(ankle, 0.024), (toe, 0.021), (toe + Vec3::new(-0.035, -0.016, spread * 0.2), 0.004)])
@@ -147,7 +156,8 @@ fn wing(q: Vec3) -> f32 {
 
     let arm = chain(q, &[(root, 0.045), (joint(-0.3, 0.66), 0.03), (wrist, 0.024)]);
     let thumb = taper(q, (wrist, 0.022), (wrist + Vec3::new(-0.06, 0.07, 0.02), 0.004));
-    let fingers = tips.iter().map(|&tip| taper(q, (wrist, 0.022), (tip, 0.009))).fold(f32::INFINITY, f32::min);
+    let fingers =
+        tips.iter().map(|&tip| taper(q, (wrist, 0.022), (tip, 0.009))).fold(f32::INFINITY, f32::min);
 
     let flat = |v: Vec3| Vec2::new(v.x, v.y);
     let dip = |a: Vec3, b: Vec3| flat(a).lerp(flat(b), 0.5).lerp(flat(wrist), 0.22);

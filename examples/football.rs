@@ -50,8 +50,10 @@ fn panels() -> Vec<Vec<Vec3>> {
     // Of a triangle between three tips that touch, the cuts leave a hexagon.
     for (i, &a) in tips.iter().enumerate() {
         for (j, &b) in tips.iter().enumerate().skip(i + 1) {
-            for &c in tips.iter().skip(j + 1).filter(|&&c| touching(a, b) && touching(b, c) && touching(c, a)) {
-                let corners = [(a, b), (b, a), (b, c), (c, b), (c, a), (a, c)].map(|(from, to)| third(from, to));
+            for &c in tips.iter().skip(j + 1).filter(|&&c| touching(a, b) && touching(b, c) && touching(c, a))
+            {
+                let corners =
+                    [(a, b), (b, a), (b, c), (c, b), (c, a), (a, c)].map(|(from, to)| third(from, to));
                 panels.push(around(a + b + c, corners.to_vec()));
             }
         }

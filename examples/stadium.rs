@@ -98,7 +98,9 @@ fn seen_through(window: Vec2) -> Vec3 {
         let under_roof = roof(s).is_some_and(|height| height < p.y && p.y < height + FASCIA);
         under_roof || p.y < bowl(s)
     };
-    let Some(step) = (0..360).map(|i| 1.5 + i as f32 * 0.018).find(|&t| met(t)) else { return over_roof(window) };
+    let Some(step) = (0..360).map(|i| 1.5 + i as f32 * 0.018).find(|&t| met(t)) else {
+        return over_roof(window);
+    };
     let (mut free, mut hit) = (step - 0.018, step);
     for _ in 0..12 {
         let half = (free + hit) / 2.0;
@@ -223,7 +225,13 @@ fn seats(run: f32, depth: f32, light: f32, tier: u32) -> Vec3 {
     let head = (local - sway - Vec2::new(0.0, 0.22)).length() < 0.24;
     let body = (local.x - sway.x).abs() < 0.4 && local.y < 0.2;
     let skin = srgb(0xc8946e).lerp(srgb(0x6a4433), random(4));
-    let person = if head { skin } else if body { coat(random(5)) } else { red_seat * 0.5 };
+    let person = if head {
+        skin
+    } else if body {
+        coat(random(5))
+    } else {
+        red_seat * 0.5
+    };
     person * light * (0.7 + 0.5 * random(6))
 }
 
@@ -273,7 +281,10 @@ fn boards(run: f32, height: f32) -> Vec3 {
     let column = (run / dot).floor().rem_euclid(9.0 * 7.0) as usize;
     let (glyph, x) = (column / 7, column % 7);
     let y = ((0.95 - height) / dot).floor();
-    let lit = glyph < 6 && (1..=5).contains(&x) && (0.0..5.0).contains(&y) && GLYPHS[glyph][y as usize] >> (5 - x) & 1 == 1;
+    let lit = glyph < 6
+        && (1..=5).contains(&x)
+        && (0.0..5.0).contains(&y)
+        && GLYPHS[glyph][y as usize] >> (5 - x) & 1 == 1;
     let ground = if panel.rem_euclid(2) == 0 { srgb(0x8e0f1e) } else { srgb(0x14203c) };
     if lit { srgb(0xfff2d8) } else { ground }
 }

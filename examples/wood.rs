@@ -35,7 +35,8 @@ fn walnut(at: Vec2) -> Vec3 {
     let depth = 1.2 + 3.0 * random(3) + 0.028 * at.x;
     let wave = 1.5 * fractal(Vec2::new(along * 0.035, across * 0.16), 4, seed);
     let radius = across.hypot(depth) + wave;
-    let ring = (radius * 1.15 + 0.12 * fractal(Vec2::new(along * 0.2, across * 3.0), 3, seed + 1)).rem_euclid(1.0);
+    let ring =
+        (radius * 1.15 + 0.12 * fractal(Vec2::new(along * 0.2, across * 3.0), 3, seed + 1)).rem_euclid(1.0);
 
     // Late wood darkens slowly towards the edge of a ring and ends at once.
     let late = smoothstep(0.1, 0.93, ring) * (1.0 - smoothstep(0.93, 1.0, ring));

@@ -107,7 +107,8 @@ impl Mesh {
     /// Proves that the mesh bounds a solid: along every edge as many faces run forth as back, and the enclosed volume
     /// is positive, so the faces look outwards. Returns the volume.
     pub fn closed_volume(&self) -> Result<f32, String> {
-        if let Some((edge, [forth, back])) = self.edge_uses().iter().find(|(_, [forth, back])| forth != back) {
+        if let Some((edge, [forth, back])) = self.edge_uses().iter().find(|(_, [forth, back])| forth != back)
+        {
             return Err(format!("edge {edge:?} is used {forth} times forth and {back} times back"));
         }
         let volume = self.volume();
@@ -165,7 +166,8 @@ impl Mesh {
             let near = around[corner as usize].iter().map(|&i| areas[i]);
             near.filter(|area| limit <= area.normalize_or_zero().dot(own)).sum::<Vec3>().normalize_or(own)
         };
-        let corners = |(index, face): (usize, &Face)| face.corners.iter().map(|&c| normal(index, c)).collect();
+        let corners =
+            |(index, face): (usize, &Face)| face.corners.iter().map(|&c| normal(index, c)).collect();
         self.faces.iter().enumerate().map(corners).collect()
     }
 

@@ -20,7 +20,12 @@ pub fn srgb(hex: u32) -> Vec3 {
 ///
 /// `color` gives the linear colour at a point, in pixels from the top left corner; each pixel is the mean of
 /// `grid × grid` points in it. Colours above 1 saturate.
-pub fn save(name: &str, (width, height): (u32, u32), grid: u32, color: impl Fn(Vec2) -> Vec3 + Sync) -> io::Result<()> {
+pub fn save(
+    name: &str,
+    (width, height): (u32, u32),
+    grid: u32,
+    color: impl Fn(Vec2) -> Vec3 + Sync,
+) -> io::Result<()> {
     let row = |y: u32| {
         let pixel = move |x: u32| (x, y);
         (0..width).map(pixel).flat_map(|(x, y)| display(mean(x, y, grid, &color))).collect::<Vec<u8>>()

@@ -30,7 +30,10 @@ pub fn dusk(window: Vec2) -> Vec3 {
     // High, thin streaks, drawn out along x.
     let sheet = Vec2::new(side, 1.0) / rise;
     let streaks = fractal(sheet * Vec2::new(0.55, 2.3) + Vec2::new(3.1, 0.0), 6, 21);
-    color = color.lerp(srgb(0xf6c6a4) * (0.55 + 0.6 * smoothstep(0.5, 0.2, rise)), 0.5 * smoothstep(0.02, 0.5, streaks));
+    color = color.lerp(
+        srgb(0xf6c6a4) * (0.55 + 0.6 * smoothstep(0.5, 0.2, rise)),
+        0.5 * smoothstep(0.02, 0.5, streaks),
+    );
 
     // Lower banks: burning where they thin out towards the set sun, slate where they are thick.
     let thickness = |offset: Vec2| {
