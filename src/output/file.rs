@@ -68,16 +68,7 @@ impl Target {
         if path.is_dir() {
             return Err(unwritable(path, "it is a folder"));
         }
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        if !folder.is_dir() {
-            return Err(unwritable(path, format!("there is no folder `{}`", folder.display())));
-        }
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".snell-").suffix(".tmp");
-        // A temporary file is private by default; a picture is as readable as any other file (the umask still applies).
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = builder.tempfile_in(folder).map_err(|error| unwritable(path, error))?;
+        let file = temporary_beside(path)?;
         Ok(Self { path: path.to_owned(), format, file })
     }
 
@@ -100,10 +91,8 @@ impl Target {
     /// # Errors
     /// [`OutputError::Unwritable`]; a file that was there before is still whole then.
     pub fn finish(self) -> Result<PathBuf, OutputError> {
-        let Self { path, file, .. } = self;
-        file.as_file().sync_all().map_err(|error| unwritable(&path, error))?;
-        file.persist(&path).map_err(|error| unwritable(&path, error.error))?;
-        Ok(path)
+        keep(self.file, &self.path)?;
+        Ok(self.path)
     }
 
     fn try_write(&mut self, frame: &Frame, display: &Display) -> io::Result<()> {
@@ -114,6 +103,35 @@ impl Target {
         encode(&mut out, self.format, frame, display)?;
         out.flush()
     }
+}
+
+/// Writes a file of any kind whole: under another name first, so that an old one stays if this fails.
+///
+/// # Errors
+/// [`OutputError::Unwritable`].
+pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    let mut file = temporary_beside(path)?;
+    file.write_all(bytes).map_err(|error| unwritable(path, error))?;
+    keep(file, path)
+}
+
+/// A file that vanishes unless it is kept, in the folder of `path`.
+fn temporary_beside(path: &Path) -> Result<NamedTempFile, OutputError> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Err(unwritable(path, format!("there is no folder `{}`", folder.display())));
+    }
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".snell-").suffix(".tmp");
+    // A temporary file is private by default; ours is as readable as any other file (the umask still applies).
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder).map_err(|error| unwritable(path, error))
+}
+
+fn keep(file: NamedTempFile, path: &Path) -> Result<(), OutputError> {
+    file.as_file().sync_all().map_err(|error| unwritable(path, error))?;
+    file.persist(path).map(drop).map_err(|error| unwritable(path, error.error))
 }
 
 /// Encodes a picture.

@@ -4,7 +4,7 @@ mod exr;
 mod file;
 pub mod tone;
 
-pub use file::{Format, OutputError, Target};
+pub use file::{Format, OutputError, Target, replace};
 pub use tone::{Display, Exposure, Tone};
 
 use crate::math::Rgb;

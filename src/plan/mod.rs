@@ -67,6 +67,11 @@ pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, forced: Option<Method>
     }
 }
 
+/// The method that suits a scene, whatever it says itself.
+pub fn suited(loaded: &Loaded<'_>, camera: Option<&Camera>) -> Method {
+    choose(loaded, &effects::effects(loaded, camera)).0
+}
+
 /// Photon mapping where light reaches matt surfaces through something specular and paths from the camera would hardly
 /// ever find its source; path tracing otherwise.
 fn choose(loaded: &Loaded<'_>, effects: &[EffectUse]) -> (Method, String) {
