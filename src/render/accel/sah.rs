@@ -5,7 +5,7 @@ use crate::math::Bounds;
 use crate::render::shape::triangle::LANES;
 
 /// The price of visiting an inner node; that of a leaf's block of triangles is 1.
-const TRAVERSAL_COST: f64 = 0.9;
+const TRAVERSAL_COST: f64 = 1.0;
 /// The factor on the price of a split that cuts off empty space (Wald, Havran 2006, section 3.2).
 const EMPTY_BONUS: f64 = 0.8;
 /// Planes tried along an axis where the sweep would be too dear.
