@@ -4,7 +4,7 @@ mod exr;
 mod file;
 pub mod tone;
 
-pub use file::{Format, OutputError, Target, replace};
+pub use file::{Format, OutputError, Target, encode, replace};
 pub use tone::{Display, Exposure, Tone};
 
 use crate::math::Rgb;
