@@ -15,7 +15,7 @@ mod textures;
 mod types;
 
 pub use range::Range;
-pub use types::Type;
+pub use types::{Type, quoted};
 
 /// A kind of block: `sphere { .. }`, `light sphere { .. }`.
 #[derive(Debug)]
