@@ -60,7 +60,7 @@ pub enum Mistake {
         at: SourceSpan,
     },
 
-    #[error("`{key}` wants {wanted}, and {found} follows")]
+    #[error("`{key}` wants {wanted}, and {found}")]
     #[diagnostic(code(snell::convert::missing_number))]
     MissingNumber {
         key: String,

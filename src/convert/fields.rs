@@ -6,8 +6,12 @@ use super::report::{Fate, Outcome};
 use super::vocabulary::{self, Args, Vocabulary};
 use crate::diag::did_you_mean;
 use crate::math::DVec3;
+use std::collections::BTreeMap;
 use std::iter::Peekable;
 use std::vec::IntoIter;
+
+/// What is said of a field that was taken; it stays only where a mistake elsewhere ends the conversion.
+pub const READ: &str = "read, and lost with what it belongs to";
 
 /// A key and its values.
 #[derive(Debug)]
@@ -66,24 +70,42 @@ impl Fields<'_> {
 #[derive(Debug)]
 pub struct Log {
     pub notes: Notebook,
-    pub fates: Vec<Fate>,
+    /// By their beginnings; what is said last of a stretch counts.
+    pub fates: BTreeMap<usize, Fate>,
 }
 
 impl Log {
+    pub fn new(notes: Notebook) -> Self {
+        Self { notes, fates: BTreeMap::new() }
+    }
+
     pub fn mapped(&mut self, span: &Span, to: impl Into<String>) {
-        self.fates.push(Fate { span: span.clone(), outcome: Outcome::Mapped(to.into()) });
+        self.tell(span, Outcome::Mapped(to.into()));
     }
 
     pub fn approximated(&mut self, span: &Span, how: impl Into<String>) {
-        self.fates.push(Fate { span: span.clone(), outcome: Outcome::Approximated(how.into()) });
+        self.tell(span, Outcome::Approximated(how.into()));
     }
 
     pub fn ignored(&mut self, span: &Span, why: impl Into<String>) {
-        self.fates.push(Fate { span: span.clone(), outcome: Outcome::Ignored(why.into()) });
+        self.tell(span, Outcome::Ignored(why.into()));
     }
 
     pub fn dropped(&mut self, span: &Span, why: impl Into<String>) {
-        self.fates.push(Fate { span: span.clone(), outcome: Outcome::Dropped(why.into()) });
+        self.tell(span, Outcome::Dropped(why.into()));
+    }
+
+    fn tell(&mut self, span: &Span, outcome: Outcome) {
+        self.fates.insert(span.start, Fate { span: span.clone(), outcome });
+    }
+
+    /// Drops a whole block, whatever was said of its parts.
+    pub fn drop_all(&mut self, span: &Span, why: &str) {
+        let inside: Vec<usize> = self.fates.range(span.clone()).map(|(start, _)| *start).collect();
+        for start in inside {
+            self.fates.remove(&start);
+        }
+        self.dropped(span, why);
     }
 
     /// Sorts a block's content into fields and blocks. Strays are noted and dropped.
@@ -142,7 +164,8 @@ impl Log {
         nodes: &mut Peekable<IntoIter<Node<'t>>>,
         vocabulary: Vocabulary,
     ) -> Field<'t> {
-        let entry = vocabulary::find(vocabulary, key.text);
+        let capitalised = || vocabulary::find_capitalised(vocabulary, key.text);
+        let entry = vocabulary::find(vocabulary, key.text).or_else(capitalised);
         let mut field = Field {
             key: entry.map_or(key.text, |(meant, _)| meant),
             numbers: Vec::new(),
@@ -217,9 +240,9 @@ impl Log {
             }
             _ => {
                 let found = match field.numbers.len() {
-                    0 => "none".to_string(),
-                    1 => "one".to_string(),
-                    some => some.to_string(),
+                    0 => "none follows".to_string(),
+                    1 => "only one follows".to_string(),
+                    some => format!("only {some} follow"),
                 };
                 let help = format!("write `{}`", example(field.key, count));
                 self.notes.note(Mistake::MissingNumber {
@@ -284,7 +307,9 @@ impl Log {
             }
             earlier.key != key
         });
-        if !field.sound {
+        if field.sound {
+            self.mapped(&field.span, READ); // until the reader says what it becomes
+        } else {
             self.dropped(&field.span, "malformed");
         }
         field.sound.then_some(field)

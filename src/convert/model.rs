@@ -59,6 +59,8 @@ pub enum Light {
 /// A material and what is to be said about it.
 #[derive(Debug)]
 pub struct Material {
+    /// Its whole block.
+    pub span: Span,
     pub look: Look,
     pub notes: Vec<String>,
 }
@@ -128,6 +130,18 @@ pub struct Object {
     pub steps: Vec<Step>,
     pub notes: Vec<String>,
     pub span: Span,
+}
+
+impl Object {
+    /// Calls `visit` for every object that is no group, also inside groups. Nesting is bounded by the parser.
+    pub fn each(objects: &[Self], visit: &mut dyn FnMut(&Self)) {
+        for object in objects {
+            match &object.shape {
+                Shape::Group(inner) => Self::each(inner, visit),
+                _ => visit(object),
+            }
+        }
+    }
 }
 
 /// A shape in its own frame.

@@ -29,6 +29,8 @@ pub const CAMERA: Vocabulary = &[
     ("direction", Numbers(3)),
     ("up", Numbers(3)),
     ("angle", Numbers(1)),
+    ("w-angle", Numbers(1)),
+    ("h-angle", Numbers(1)),
     ("width", Numbers(1)),
     ("height", Numbers(1)),
     ("size", Numbers(1)),
@@ -141,8 +143,14 @@ pub const OBJECTS: &[&str] = &[
     "BsplineCurve",
 ];
 
-/// The key's entry, exact or, failing that, without regard to case.
+/// The key's entry, exactly as it is spelt.
 pub fn find(vocabulary: Vocabulary, word: &str) -> Option<(&'static str, Args)> {
-    let exact = vocabulary.iter().find(|(key, _)| *key == word);
-    exact.or_else(|| vocabulary.iter().find(|(key, _)| key.eq_ignore_ascii_case(word))).copied()
+    vocabulary.iter().find(|(key, _)| *key == word).copied()
+}
+
+/// The entry of a key that is spelt with a capital, `Color` for `color`, as some programs do.
+pub fn find_capitalised(vocabulary: Vocabulary, word: &str) -> Option<(&'static str, Args)> {
+    let first = word.chars().next().filter(char::is_ascii_uppercase)?;
+    let lower = format!("{}{}", first.to_ascii_lowercase(), &word[1..]);
+    find(vocabulary, &lower)
 }

@@ -51,7 +51,7 @@ impl Reader<'_> {
         let center = self.log.need_vector(&mut fields, "center", "`position`");
         let direction = self.axis(&mut fields, "direction");
         let up = self.axis(&mut fields, "up");
-        let angle = self.log.need(&mut fields, "angle");
+        let angle = self.angle(&mut fields);
         let size = self.picture_size(&mut fields);
         let lens = self.lens(&name, &head, &mut fields);
         self.log.finish(fields);
@@ -77,6 +77,17 @@ impl Reader<'_> {
             return None;
         }
         Some((field.vector(), field.span))
+    }
+
+    /// `angle`, or `h-angle`, its vertical half in a dialect that has one for each axis.
+    fn angle<'t>(&mut self, fields: &mut Fields<'t>) -> Option<Field<'t>> {
+        if fields.has("angle") || !fields.has("h-angle") {
+            return self.log.need(fields, "angle");
+        }
+        if let Some(across) = self.log.take(fields, "w-angle") {
+            self.log.approximated(&across.span, "it follows from `fov` and the picture's shape");
+        }
+        self.log.take(fields, "h-angle")
     }
 
     fn field_of_view(&mut self, angle: Field<'_>, size: Option<(u32, u32)>) -> Option<f64> {
@@ -110,7 +121,8 @@ impl Reader<'_> {
             let pixels = field.number(0).trunc();
             let fits = (1.0..=65536.0).contains(&pixels);
             if !fits {
-                let what = format!("a picture cannot be {pixels} pixels wide or high");
+                let written = field.numbers.first().map_or("0", |number| number.text);
+                let what = format!("a picture cannot be {written} pixels wide or high");
                 self.bad_value(what, &field.span, "write a whole number from 1 to 65536");
             }
             fits.then_some(pixels as u32)

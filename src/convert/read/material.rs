@@ -4,7 +4,7 @@ use super::{Dialect, Reader, vocab};
 use crate::convert::dialect;
 use crate::convert::error::Mistake;
 use crate::convert::fields::{Field, Fields, Part};
-use crate::convert::model::{Look, Material, Texture};
+use crate::convert::model::{Asset, Look, Material, Texture};
 use crate::convert::parse::{Block, Span};
 use crate::math::DVec3;
 
@@ -33,10 +33,17 @@ impl Reader<'_> {
         materials
     }
 
-    fn material(&mut self, block: Block<'_>) -> Material {
+    pub(super) fn material(&mut self, block: Block<'_>) -> Material {
+        let span = block.span.clone();
+        Material { span, ..self.material_by_dialect(block) }
+    }
+
+    fn material_by_dialect(&mut self, block: Block<'_>) -> Material {
         let told = dialect::of_material(&block).map(|(dialect, _)| dialect);
         let dialect = match self.options.dialect {
             Some(forced) if told != Some(Dialect::Typed) => forced,
+            // MIT's editions reflect and refract by the specular colour, which the course's does not.
+            _ if self.dialect.is_mit() && block.words().any(|word| word == "specularColor") => self.dialect,
             _ => told.unwrap_or(self.dialect),
         };
         if !["Material", "PhongMaterial"].contains(&block.name()) {
@@ -86,7 +93,7 @@ impl Reader<'_> {
         }
         self.tint_fate(color, &look);
         let look = self.arsenal_highlight(look, shininess, &mut notes);
-        Material { look, notes }
+        material(look, notes)
     }
 
     /// `shininess` adds, for each lamp and without a shadow test, `0.3 color (V.R)^shininess` to the diffuse light.
@@ -134,7 +141,7 @@ impl Reader<'_> {
             for field in [&specular, &shininess].into_iter().flatten() {
                 self.log.mapped(&field.span, "no highlight");
             }
-            return Material { look: Look::Diffuse { color }, notes };
+            return material(Look::Diffuse { color }, notes);
         }
         let specular_span = specular.map(|field| field.span).unwrap_or_default();
         let how = "a `phong` lobe whose highlight is as bright as the original's at its middle";
@@ -154,7 +161,7 @@ impl Reader<'_> {
             );
         }
         let look = fitted_phong(color, specular_color, exponent, &mut notes);
-        Material { look, notes }
+        material(look, notes)
     }
 
     /// `type d s t`: the probabilities of a diffuse, a mirror and a refracted bounce, all tinted by one colour.
@@ -179,7 +186,7 @@ impl Reader<'_> {
             None => blended(weights, color_texture, index),
         };
         self.tint_fate(color, &look);
-        Material { look, notes: Vec::new() }
+        material(look, Vec::new())
     }
 
     /// `type WORD` or `type 0|1|2`: one lobe.
@@ -203,7 +210,7 @@ impl Reader<'_> {
             None => blended(weights, Texture { color: tint, picture }, index),
         };
         self.tint_fate(color, &look);
-        Material { look, notes: Vec::new() }
+        material(look, Vec::new())
     }
 
     /// Which lobe a word or integer after `type` means.
@@ -267,7 +274,7 @@ impl Reader<'_> {
         self.log.finish_quietly(fields, "its dialect is not read yet");
         self.note_unread(dialect, &head, "only its colour and light were read");
         let notes = vec![format!("Of {}, which is not read yet: colour and light only.", dialect.title())];
-        Material { look, notes }
+        material(look, notes)
     }
 
     /// A kind of material block that is not read: grey.
@@ -275,7 +282,7 @@ impl Reader<'_> {
         self.log.dropped(&block.span, "its dialect is not read yet; a grey placeholder keeps its index");
         self.note_unread(dialect, &block.head, "a grey placeholder stands in");
         let notes = vec![format!("Stands in for a `{}`, which is not read yet.", block.name())];
-        Material { look: Look::Placeholder, notes }
+        material(Look::Placeholder, notes)
     }
 
     fn note_unread(&mut self, dialect: Dialect, at: &Span, done: &'static str) {
@@ -349,7 +356,7 @@ impl Reader<'_> {
         index
     }
 
-    fn picture(&mut self, fields: &mut Fields<'_>, key: &str) -> Option<crate::convert::model::Asset> {
+    fn picture(&mut self, fields: &mut Fields<'_>, key: &str) -> Option<Asset> {
         let field = self.log.take(fields, key)?;
         self.log.approximated(&field.span, "`image`, laid on by the shape's own uv coordinates");
         self.differs(
@@ -366,6 +373,11 @@ impl Reader<'_> {
             self.note_not_read("`bump`".into(), &field.span, "left out");
         }
     }
+}
+
+/// A material whose place is still to be set.
+fn material(look: Look, notes: Vec<String>) -> Material {
+    Material { span: 0..0, look, notes }
 }
 
 /// A mix of lobes, or the single one that has all the weight. An index below 1 is that of air in glass.

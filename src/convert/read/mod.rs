@@ -12,13 +12,13 @@ use super::asset::{AssetFinder, Search, picture_size};
 use super::dialect::{Detection, Dialect};
 use super::error::{Mistake, Notebook};
 use super::fields::{Field, Fields, Log, Part};
-use super::model::{Asset, Background, Material, Scene};
+use super::model::{Asset, Background, Material, Object, Scene};
 use super::parse::{Block, Span, Word};
-use super::report::Fate;
+use super::report::{Fate, Outcome};
 use super::vocabulary as vocab;
 use super::{Basis, Lights, Options};
 use crate::math::DVec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What reading a file yields besides its problems.
 pub struct Reading {
@@ -38,7 +38,7 @@ pub fn read(
     notes: Notebook,
 ) -> Reading {
     let mut reader = Reader {
-        log: Log { notes, fates: Vec::new() },
+        log: Log::new(notes),
         dialect: detection.dialect,
         options,
         files,
@@ -46,11 +46,12 @@ pub fn read(
         asset_roots: Vec::new(),
         material_index: None,
         materials: Vec::new(),
+        camera_center: None,
+        transform_depth: 0,
     };
     let scene = reader.scene(tree);
-    let Reader { log: Log { notes, mut fates }, asset_roots, .. } = reader;
-    fates.sort_by_key(|fate| fate.span.start);
-    Reading { scene, fates, notes, asset_roots }
+    let Reader { log: Log { notes, fates }, asset_roots, .. } = reader;
+    Reading { scene, fates: fates.into_values().collect(), notes, asset_roots }
 }
 
 /// What reading needs to know on the way.
@@ -64,6 +65,9 @@ struct Reader<'a> {
     /// The index in force: it holds for every later object of the file, through the ends of groups.
     material_index: Option<usize>,
     materials: Vec<Material>,
+    camera_center: Option<DVec3>,
+    /// How many transforms are around the block that is being read.
+    transform_depth: usize,
 }
 
 /// The blocks of the top level; of each kind the last one counts.
@@ -80,12 +84,32 @@ impl Reader<'_> {
     fn scene(&mut self, tree: Block<'_>) -> Scene {
         let top = self.top(tree);
         let camera = top.camera.and_then(|block| self.camera(block));
+        self.camera_center = camera.as_ref().map(|camera| camera.center);
         let background = self.background(top.background);
         self.materials = top.materials.map(|block| self.materials(block)).unwrap_or_default();
         let objects = top.group.map(|block| self.group(block)).unwrap_or_default();
         let lights = top.lights.map(|block| self.lights(block)).unwrap_or_default();
+        self.tell_unused_materials(&objects);
         let materials = std::mem::take(&mut self.materials);
         Scene { dialect: self.dialect, camera, background, lights, materials, objects }
+    }
+
+    /// What is mapped into a material that no object uses is in the result as a remark only.
+    fn tell_unused_materials(&mut self, objects: &[Object]) {
+        let mut used = BTreeSet::new();
+        Object::each(objects, &mut |object| used.extend(object.material));
+        let unused: Vec<&Span> = (0..)
+            .zip(&self.materials)
+            .filter(|(index, _)| !used.contains(index))
+            .map(|(_, material)| &material.span)
+            .collect();
+        for fate in self.log.fates.values_mut() {
+            let next = unused.partition_point(|span| span.end <= fate.span.start);
+            let is_inside = unused.get(next).is_some_and(|span| span.start <= fate.span.start);
+            if is_inside && matches!(fate.outcome, Outcome::Mapped(_) | Outcome::Approximated(_)) {
+                fate.outcome = Outcome::Dropped("no object uses this material; a remark keeps it".into());
+            }
+        }
     }
 
     fn top<'t>(&mut self, tree: Block<'t>) -> Top<'t> {

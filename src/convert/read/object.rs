@@ -30,7 +30,6 @@ const UNREAD_OBJECTS: &[&str] = &[
     "TinyObj",
     "Bezier",
     "Grid",
-    "Material",
 ];
 
 impl Reader<'_> {
@@ -43,6 +42,7 @@ impl Reader<'_> {
                 Part::Field(field) if field.key == "MaterialIndex" => self.set_material(&field),
                 Part::Field(field) if field.known => counts.push(field),
                 Part::Field(field) => self.log.unknown_field(&field, "Group", vocab::GROUP),
+                Part::Block(block) if block.name() == "Material" => self.inline_material(block),
                 Part::Block(block) => {
                     found += 1;
                     objects.extend(self.object(block));
@@ -74,6 +74,13 @@ impl Reader<'_> {
                 self.material_index = Some(count); // so that the shapes that follow do not complain, too
             }
         }
+    }
+
+    /// The oldest dialect has no indices: a `Material { .. }` in a group holds for the objects that follow it.
+    fn inline_material(&mut self, block: Block<'_>) {
+        let material = self.material(block);
+        self.material_index = Some(self.materials.len());
+        self.materials.push(material);
     }
 
     fn object(&mut self, block: Block<'_>) -> Option<Object> {
@@ -151,6 +158,7 @@ impl Reader<'_> {
 
     /// `normal . p = offset`, with the normal as long as it was written.
     fn plane(&mut self, block: Block<'_>) -> Option<Shape> {
+        let (span, head) = (block.span.clone(), block.head.clone());
         let mut fields = self.log.fields(block, vocab::PLANE);
         self.log.mapped(&fields.head, "`plane`");
         let normal = self.log.need(&mut fields, "normal");
@@ -173,7 +181,23 @@ impl Reader<'_> {
             let length = (length * 1e4).round() / 1e4;
             self.log.notes.note(Mistake::NormalNotUnit { length, at: normal.span.clone().into() });
         }
-        Some(Shape::Plane { normal: normal.vector() / length, offset: offset? / length, picture })
+        let (normal, offset) = (normal.vector() / length, offset? / length);
+        if self.is_seen_through(normal, offset) {
+            self.log.drop_all(&span, "the camera is behind it, where this dialect's planes cannot be seen");
+            let what = "a plane between the camera and the scene".into();
+            let why = "programs of this dialect see through a plane from behind";
+            self.log.notes.note(Mistake::NotConvertible { what, why, at: head.into() });
+            return None;
+        }
+        Some(Shape::Plane { normal, offset, picture })
+    }
+
+    /// Planes of the dialect of weights have one side, and its cameras like to stand behind the front wall.
+    fn is_seen_through(&self, normal: DVec3, offset: f64) -> bool {
+        let is_behind = |camera: DVec3| normal.dot(camera) < offset;
+        self.dialect == Dialect::Weights
+            && self.transform_depth == 0
+            && self.camera_center.is_some_and(is_behind)
     }
 
     fn plane_picture(&mut self, fields: &mut Fields<'_>) -> Option<PlanePicture> {
@@ -193,10 +217,10 @@ impl Reader<'_> {
         let y_axis = self.log.need(fields, "y-axis");
         let x_offset = self.log.need_number(fields, "x-offset", "`origin` of the picture");
         let y_offset = self.log.need_number(fields, "y-offset", "`origin` of the picture");
-        let (x_axis, y_axis) = (x_axis?, y_axis?);
-        for axis in [&x_axis, &y_axis] {
+        for axis in [&x_axis, &y_axis].into_iter().flatten() {
             self.log.mapped(&axis.span, "`u` and `v` of the picture");
         }
+        let (x_axis, y_axis) = (x_axis?, y_axis?);
         if x_axis.vector().cross(y_axis.vector()) == DVec3::ZERO {
             self.bad_value(
                 "the axes of this picture are parallel",
@@ -287,7 +311,9 @@ impl Reader<'_> {
                         let (second, first) = (head.clone().into(), first.clone().into());
                         self.log.notes.note(Mistake::CrowdedTransform { second, first });
                     }
+                    self.transform_depth += 1;
                     let object = self.object(block);
+                    self.transform_depth -= 1;
                     objects.push((head, object));
                 }
             }
@@ -395,7 +421,8 @@ impl Reader<'_> {
                 "it was read as one curve over all its points; the original wants 4, 7, 10, .. of them";
             self.differs(format!("a Bezier curve of {} points", lists.len()), &head, help);
         }
-        let points: Option<Vec<_>> = lists.iter().map(|list| self.control_point(list)).collect();
+        let points: Vec<_> = lists.iter().map(|list| self.control_point(list)).collect();
+        let points: Option<Vec<_>> = points.into_iter().collect(); // after the mistakes of all of them
         Some(Profile { kind, points: self.outward(points?, &head) })
     }
 
@@ -411,8 +438,8 @@ impl Reader<'_> {
             .collect();
         let at = list.span.clone().into();
         let found = match list.items.iter().find(|item| !matches!(item, Node::Number(_))) {
-            Some(Node::Word(word)) => format!("`{}`", word.text),
-            _ => numbers.len().to_string(),
+            Some(Node::Word(word)) => format!("`{}` is none", word.text),
+            _ => format!("this one has {}", list.items.len()),
         };
         match numbers[..] {
             [x, y, 0.0] if list.items.len() == 3 => Some((x, y)),

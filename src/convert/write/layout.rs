@@ -23,6 +23,8 @@ pub enum Value {
     Block(String, Vec<Entry>),
     /// `head { items }`, always on lines of their own.
     Group(String, Vec<Entry>),
+    /// Operands that `then` joins.
+    Chain(Vec<String>),
     /// `open items close`, such as a list of points.
     List(String, Vec<String>, String),
 }
@@ -65,6 +67,7 @@ impl Entry {
         let value = match &self.value {
             Value::Text(text) => text.clone(),
             Value::Group(..) => return None,
+            Value::Chain(steps) => steps.join(" then "),
             Value::List(open, items, close) => format!("{open}{}{close}", items.join(", ")),
             Value::Block(head, fields) => {
                 let flat = |field: &Self| field.notes.is_empty().then(|| field.flat()).flatten();
@@ -86,6 +89,9 @@ impl Entry {
                 *out += &format!("{indent}{prefix}{head}{{\n");
                 *out += &entries.iter().map(|entry| entry.render(depth + 1)).collect::<String>();
                 *out += &format!("{indent}}}\n");
+            }
+            Value::Chain(steps) => {
+                *out += &format!("{indent}{prefix}{}\n", steps.join(&format!("\n{indent}{INDENT}then ")));
             }
             Value::List(open, items, close) => {
                 *out += &format!("{indent}{prefix}{open}\n");

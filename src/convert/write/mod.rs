@@ -10,7 +10,7 @@ use super::model::{Background, Camera, Light, Look, Material, Scene, Texture};
 use crate::math::DVec3;
 use layout::{Entry, Value, comment, paragraph};
 use std::f64::consts::PI;
-use text::{color, number, point, rounded, string};
+use text::{color, number, point, rough, rough_color, rounded, string};
 
 /// Writes a scene. `name` is the file it came from, `asset_roots` where its files were found.
 pub fn write(scene: &Scene, name: &str, detection: &Detection, asset_roots: &[String]) -> String {
@@ -44,8 +44,10 @@ fn header(name: &str, detection: &Detection, asset_roots: &[String]) -> String {
     let elsewhere: Vec<String> =
         asset_roots.iter().filter(|root| *root != ".").map(|root| format!("--asset-dir {root}")).collect();
     if !elsewhere.is_empty() {
-        let note =
-            format!("Its files lie elsewhere: render it from its own folder with {}.", elsewhere.join(" "));
+        let note = format!(
+            "Its files lie elsewhere: render it, from the original's folder, with `{}`.",
+            elsewhere.join(" ")
+        );
         out += &comment(&note, 0);
     }
     out
@@ -115,11 +117,11 @@ fn light_entry(light: &Light, scene: &Scene) -> Entry {
                 "The original's light is {} at every distance and passes through everything. This one has that \
                  brightness {} away, at the middle of the scene, and casts shadows.",
                 color(*c),
-                rounded(distance)
+                rough(distance)
             );
             let parts = vec![
                 Entry::field("position", point(*position)),
-                Entry::field("intensity", color(*c * (PI * distance * distance))),
+                Entry::field("intensity", rough_color(*c * (PI * distance * distance))),
             ];
             Entry::item(Value::Block("light point ".into(), parts)).noted(&[note])
         }
@@ -127,10 +129,10 @@ fn light_entry(light: &Light, scene: &Scene) -> Entry {
             let luminance = c.dot(DVec3::new(0.2126, 0.7152, 0.0722)); // Rec. 709
             let mut parts = vec![
                 Entry::field("direction", point(*direction)),
-                Entry::field("irradiance", rounded(PI * luminance)),
+                Entry::field("irradiance", rough(PI * luminance)),
             ];
             if luminance > 0.0 && !(c.x == c.y && c.y == c.z) {
-                parts.push(Entry::field("color", color(*c / luminance)));
+                parts.push(Entry::field("color", rough_color(*c / luminance)));
             }
             let note = format!(
                 "As bright on a facing surface as the original's {}; there it casts no shadows.",

@@ -60,17 +60,20 @@ impl Glossary {
     pub fn bindings(&self, scene: &Scene) -> Vec<Entry> {
         let uses = Uses::of(scene);
         let mut entries = Vec::new();
+        let mut said = BTreeSet::new(); // what holds for several materials is said at the first
         for (index, material) in scene.materials.iter().enumerate() {
-            let entry =
-                Entry::binding(&self.materials[index], material_value(material)).noted(&material.notes);
+            let entry = Entry::binding(&self.materials[index], material_value(material));
             if uses.named.contains(&index) {
-                entries.push(entry);
+                let news: Vec<String> =
+                    material.notes.iter().filter(|&note| said.insert(note)).cloned().collect();
+                entries.push(entry.noted(&news));
             } else if !uses.inlined.contains(&index) {
                 entries.push(remark(&entry));
             }
         }
         if uses.named.contains(&scene.materials.len()) {
             let missing = Material {
+                span: 0..0,
                 look: Look::Placeholder,
                 notes: vec!["Its index is past the last material.".into()],
             };
@@ -78,7 +81,7 @@ impl Glossary {
             entries.push(Entry::binding(name, material_value(&missing)).noted(&missing.notes));
         }
         let mut files = BTreeMap::new();
-        each(&scene.objects, &mut |object| {
+        Object::each(&scene.objects, &mut |object| {
             if let Shape::Mesh { file } = &object.shape {
                 files.insert(file.path.clone(), file.clone());
             }
@@ -97,7 +100,7 @@ impl Glossary {
 impl Uses {
     fn of(scene: &Scene) -> Self {
         let mut uses = Self::default();
-        each(&scene.objects, &mut |object| {
+        Object::each(&scene.objects, &mut |object| {
             if let Shape::Mesh { file } = &object.shape {
                 *uses.meshes.entry(file.path.clone()).or_default() += 1;
             }
@@ -109,16 +112,6 @@ impl Uses {
             }
         });
         uses
-    }
-}
-
-/// Calls `visit` for every object that is no group.
-fn each(objects: &[Object], visit: &mut dyn FnMut(&Object)) {
-    for object in objects {
-        match &object.shape {
-            Shape::Group(inner) => each(inner, visit),
-            _ => visit(object),
-        }
     }
 }
 
@@ -174,7 +167,8 @@ fn entry(object: &Object, scene: &Scene, names: &Glossary) -> Entry {
 fn placement(object: &Object, scene: &Scene, names: &Glossary) -> Vec<Entry> {
     let mut fields = Vec::new();
     if !object.steps.is_empty() {
-        fields.push(Entry::field("transform", chain(&object.steps)));
+        let steps = object.steps.iter().map(step).collect(); // applied from left to right
+        fields.push(Entry::field("transform", Value::Chain(steps)));
     }
     let is_group = matches!(object.shape, Shape::Group(_));
     let material = object.material.filter(|_| !is_group);
@@ -313,11 +307,6 @@ fn profile_value(profile: &Profile) -> Value {
         Curve::Bezier => ("bezier(degree: all, [", "])"),
     };
     Value::List(open.into(), points.collect(), close.into())
-}
-
-/// `scale(2) then translate(0, 1, 0)`, applied from left to right.
-fn chain(steps: &[Step]) -> String {
-    steps.iter().map(step).collect::<Vec<_>>().join(" then ")
 }
 
 fn step(step: &Step) -> String {

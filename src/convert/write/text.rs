@@ -18,6 +18,11 @@ pub fn rounded(x: f64) -> String {
     }
 }
 
+/// A number that is approximate anyway, to five digits.
+pub fn rough(x: f64) -> String {
+    format!("{x:.4e}").parse().map(number).unwrap_or_else(|_| number(x))
+}
+
 /// `(x, y, z)`.
 pub fn point(p: DVec3) -> String {
     format!("({}, {}, {})", number(p.x), number(p.y), number(p.z))
@@ -30,10 +35,16 @@ pub fn rounded_point(p: DVec3) -> String {
 
 /// A linear colour; greys are plain numbers.
 pub fn color(c: DVec3) -> String {
-    if c.x == c.y && c.y == c.z {
-        return rounded(c.x);
-    }
-    format!("rgb({}, {}, {})", rounded(c.x), rounded(c.y), rounded(c.z))
+    grey_or_rgb(c.to_array().map(rounded))
+}
+
+/// A linear colour that is approximate anyway.
+pub fn rough_color(c: DVec3) -> String {
+    grey_or_rgb(c.to_array().map(rough))
+}
+
+fn grey_or_rgb([r, g, b]: [String; 3]) -> String {
+    if r == g && g == b { r } else { format!("rgb({r}, {g}, {b})") }
 }
 
 /// `"path"`.
