@@ -396,3 +396,10 @@ pub enum SyntaxError {
         at: Span,
     },
 }
+
+impl SyntaxError {
+    /// The place of the mistake.
+    pub(super) fn at(&self) -> Option<usize> {
+        Some(self.labels()?.next()?.offset())
+    }
+}

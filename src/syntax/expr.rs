@@ -26,18 +26,14 @@ impl Lower<'_> {
         lowered.unwrap_or_else(|| poison(span))
     }
 
-    /// `object = { (two_words | name) ~ block }`
+    /// `object = { head ~ block }`
     pub(super) fn object(&mut self, pair: Pair<'_, Rule>) -> Object {
         let start = self.text.span_of(&pair);
         let mut parts = Parts::of(pair);
-        let (kind, second) = match parts.next() {
-            Some(head) if head.as_rule() == Rule::two_words => {
-                let words: Vec<_> = Parts::of(head).rest().map(|word| self.word(&word)).collect();
-                (words[0].clone(), words.get(1).cloned())
-            }
-            Some(head) => (self.word(&head), None),
-            None => (Spanned::new(String::new(), start), None),
-        };
+        let mut words = parts.take(Rule::head).into_iter().flat_map(Pair::into_inner).map(|word| self.word(&word));
+        let kind = words.next().unwrap_or_else(|| Spanned::new(String::new(), start));
+        let second = words.next();
+        drop(words);
         let body = self.body(&mut parts, "this object");
         Object { span: kind.span.to(body.span), kind, second, body }
     }
@@ -263,10 +259,13 @@ impl Lower<'_> {
         ExprKind::Poison
     }
 
-    /// `arg = { ident ~ ":" ~ given | value }`
+    /// `arg = _{ named_arg | value }`, `named_arg = { ident ~ ":" ~ given }`
     fn arg(&mut self, pair: Pair<'_, Rule>) -> Arg {
+        if pair.as_rule() != Rule::named_arg {
+            return Arg { name: None, value: self.value(pair) };
+        }
         let mut parts = Parts::of(pair);
-        let name = parts.take(Rule::ident).map(|name| self.word(&name));
+        let name = parts.next().map(|name| self.word(&name));
         let what = name.as_ref().map_or_else(String::new, |name| format!("the value of `{}`", name.value));
         let value = self.given_or_poison(&mut parts, &what, "write it after the colon");
         Arg { name, value }

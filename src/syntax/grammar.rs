@@ -7,7 +7,7 @@ use pest::iterators::{Pair, Pairs};
 #[grammar = "../grammar/snell.pest"]
 pub(super) struct Snell;
 
-/// The parts of a node, without comments and keywords, taken from left to right.
+/// The parts of a node, without keywords, taken from left to right.
 pub(super) struct Parts<'i> {
     pairs: Pairs<'i, Rule>,
 }
@@ -56,13 +56,12 @@ impl<'i> Parts<'i> {
     }
 }
 
-/// Comments, the end of the text, and the keywords that tell lowering nothing.
+/// The end of the text, and the keywords that tell lowering nothing.
 fn is_silent(rule: Rule) -> bool {
     use Rule::*;
     matches!(
         rule,
-        COMMENT
-            | EOI
+        EOI
             | kw_snell
             | kw_allow
             | kw_include

@@ -4,7 +4,7 @@ use super::ast::{Entry, Expr, File, FileIndex, Item, Program};
 use super::error::SyntaxError;
 use super::grammar::{Parts, Rule, Snell};
 use super::lower::{Lower, Request};
-use super::text::Text;
+use super::repair::repair;
 use crate::diag::Problems;
 use crate::source::{FileId, Files, Missing, SourceMap, Span};
 use pest::Parser;
@@ -67,10 +67,14 @@ impl<'a> Loader<'a> {
     fn items(&mut self, source: FileId) -> Vec<Item> {
         let file = self.sources.file(source);
         let (text, base): (Arc<str>, u32) = (file.text.clone(), file.base);
+        let repaired = match repair(&text, base) {
+            Ok(repaired) => repaired,
+            Err(error) => return self.refuse(error).unwrap_or_default(),
+        };
         let mut load = |request: &Request| self.load(source, request);
-        let mut lower = Lower::new(Text { text: &text, base }, &mut load);
-        let items = lower.file(&text);
-        let errors = lower.finish();
+        let mut lower = Lower::new(repaired.as_text(&text, base), &mut load);
+        let items = lower.file();
+        let errors = lower.finish(repaired.errors.clone(), &repaired.guesses);
         errors.into_iter().for_each(|error| self.problems.push(error));
         items
     }
@@ -155,8 +159,8 @@ impl<'a> Loader<'a> {
 
 impl Lower<'_> {
     /// `file = { SOI ~ entry* ~ EOI }`
-    fn file(&mut self, text: &str) -> Vec<Item> {
-        let file = match Snell::parse(Rule::file, text) {
+    fn file(&mut self) -> Vec<Item> {
+        let file = match Snell::parse(Rule::file, self.text.text) {
             Ok(mut pairs) => pairs.next(),
             Err(error) => {
                 self.unparsed(&error);
@@ -175,14 +179,14 @@ impl Lower<'_> {
     }
 
     /// `alone = { SOI ~ value ~ EOI }`, as in `--set NAME=VALUE`
-    pub(super) fn alone(&mut self, text: &str) -> Option<Expr> {
-        let parsed = Snell::parse(Rule::alone, text).map(|mut pairs| pairs.next());
+    pub(super) fn alone(&mut self) -> Option<Expr> {
+        let parsed = Snell::parse(Rule::alone, self.text.text).map(|mut pairs| pairs.next());
         let alone = parsed.unwrap_or_else(|error| {
             self.unparsed(&error);
             None
         })?;
         let what = "one value, and no more,".to_owned();
-        let at = self.text.span(0, text.len());
+        let at = self.text.span(0, self.text.text.len());
         let mut values = self.elements(alone, "values", |lower, value| Some(lower.value(value)));
         match (values.pop(), values.is_empty()) {
             (Some(value), true) => Some(value),
@@ -195,8 +199,8 @@ impl Lower<'_> {
         }
     }
 
-    /// The mistakes of the whole text.
-    pub(super) fn finish(mut self) -> Vec<SyntaxError> {
+    /// The mistakes of the whole text: those of its brackets and quotes, and those that do not follow from them.
+    pub(super) fn finish(mut self, mut errors: Vec<SyntaxError>, guesses: &[usize]) -> Vec<SyntaxError> {
         if let [first, rest @ ..] = self.semicolons.as_slice() {
             let others = match rest.len() {
                 0 => String::new(),
@@ -206,7 +210,9 @@ impl Lower<'_> {
             let at = *first;
             self.note(SyntaxError::Semicolon { others, at });
         }
-        self.errors
+        let follows = |error: &SyntaxError| guesses.iter().any(|&guess| self.text.shares_line(error.at(), guess));
+        errors.extend(self.errors.iter().filter(|error| !follows(error)).cloned());
+        errors
     }
 }
 

@@ -1,6 +1,7 @@
 //! Text → ast: what was written, includes read, every syntax error noted.
 
 pub mod ast;
+mod balance;
 mod block;
 pub mod dump;
 mod error;
@@ -10,6 +11,8 @@ mod item;
 mod literal;
 mod load;
 mod lower;
+mod repair;
+mod scan;
 mod stray;
 mod text;
 
@@ -42,10 +45,11 @@ pub fn parse_expression(
 ) -> Option<ast::Expr> {
     let id = sources.add(name.to_owned(), PathBuf::new(), text.into())?;
     let mut no_files = |_: &lower::Request| None;
-    let place = text::Text { text, base: sources.file(id).base };
-    let mut lower = lower::Lower::new(place, &mut no_files);
-    let value = lower.alone(text);
-    let errors = lower.finish();
+    let base = sources.file(id).base;
+    let repaired = repair::repair(text, base).map_err(|error| problems.push(error)).ok()?;
+    let mut lower = lower::Lower::new(repaired.as_text(text, base), &mut no_files);
+    let value = lower.alone();
+    let errors = lower.finish(repaired.errors.clone(), &repaired.guesses);
     let is_sound = errors.is_empty();
     errors.into_iter().for_each(|error| problems.push(error));
     value.filter(|_| is_sound)

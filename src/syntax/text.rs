@@ -8,6 +8,10 @@ use pest::iterators::Pair;
 pub(super) struct Text<'a> {
     /// What the grammar reads.
     pub text: &'a str,
+    /// What was written.
+    pub original: &'a str,
+    /// The offsets into `text` of bytes that were not written, in order.
+    pub inserted: &'a [usize],
     /// The offset of the text's first byte among the sources.
     pub base: u32,
 }
@@ -15,7 +19,12 @@ pub(super) struct Text<'a> {
 impl Text<'_> {
     /// The place of a range of bytes.
     pub(super) fn span(&self, start: usize, end: usize) -> Span {
-        Span::new(self.base + start as u32, self.base + end as u32)
+        Span::new(self.base + self.written(start) as u32, self.base + self.written(end) as u32)
+    }
+
+    /// Where what stands at `offset` was written.
+    fn written(&self, offset: usize) -> usize {
+        offset - self.inserted.partition_point(|&inserted| inserted < offset)
     }
 
     /// The place of a node; exact for tokens, and for others with the blanks after them.
@@ -48,6 +57,13 @@ impl Text<'_> {
         self.span(start, start + line.len())
     }
 
+    /// Whether a place among the sources lies on the line of an offset into what was written.
+    pub(super) fn shares_line(&self, place: Option<usize>, offset: usize) -> bool {
+        let Some(place) = place.and_then(|place| place.checked_sub(self.base as usize)) else { return false };
+        let between = self.original.as_bytes().get(place.min(offset)..place.max(offset));
+        between.is_some_and(|between| !between.contains(&b'\n'))
+    }
+
     /// The place of the character at `offset`.
     pub(super) fn first_char(&self, offset: usize) -> Span {
         let len = self.text[offset..].chars().next().map_or(0, char::len_utf8);
@@ -78,7 +94,7 @@ impl Text<'_> {
 
     /// The `///` lines just above `offset`, joined, without their slashes.
     pub(super) fn doc_above(&self, offset: usize) -> Option<String> {
-        let (above, line) = self.text[..offset].rsplit_once('\n')?;
+        let (above, line) = self.original[..self.written(offset)].rsplit_once('\n')?;
         if !line.trim().is_empty() {
             return None;
         }
