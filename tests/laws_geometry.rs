@@ -1,9 +1,9 @@
 //! What rays may rely on: no leaks, no order dependence, the tree as if every primitive had been tried.
 
-use snell::math::{DAffine3, Ray, Vec2, Vec3};
+use snell::math::{DAffine3, DVec2, DVec3, Ray, Vec2, Vec3};
 use snell::render::geometry::{Geometry, Hit, PrimId, SurfacePoint};
 use snell::render::shape::triangle::{ShearedRay, TriangleBlock};
-use snell::render::shape::{MaterialId, Mesh, Solid, SolidKind, SourceId};
+use snell::render::shape::{MaterialId, Mesh, Profile, Solid, SolidKind, SourceId};
 
 /// Numbers that look random, the same on every run (Vigna 2015, splitmix64).
 struct Random(u64);
@@ -427,4 +427,102 @@ fn self_hits_and_leaks(
         leaks += usize::from(!geometry.any_hit(&spawn(&point, -outwards)));
     }
     (self_hits, leaks)
+}
+
+fn solid_scene(kind: SolidKind, world_from_object: DAffine3) -> Geometry {
+    Geometry::build(Vec::new(), vec![solid(kind, world_from_object)])
+}
+
+fn ball(center: DVec3, radius: f64) -> DAffine3 {
+    DAffine3::from_translation(center) * DAffine3::from_scale(DVec3::splat(radius))
+}
+
+#[test]
+fn small_and_distant_spheres_are_hit_where_they_are() {
+    let mut random = Random(11);
+    for exponent in 1..=6 {
+        let distance = 10_f32.powi(exponent);
+        for _ in 0..5_000 {
+            let o = random.direction() * distance;
+            // Aim anywhere in a disk somewhat larger than the sphere.
+            let d = (random.point() * 1.2 - o).normalize();
+            let geometry = solid_scene(SolidKind::Sphere, DAffine3::IDENTITY);
+            let found = geometry.closest_hit(&Ray::new(o, d)).map(|hit| f64::from(hit.t));
+            let (o, d) = (o.as_dvec3(), d.as_dvec3());
+            let along = -o.dot(d) / d.length_squared();
+            let miss = o.cross(d).length() / d.length();
+            if (miss - 1.0).abs() > 1e-9 * f64::from(distance) {
+                assert_eq!(found.is_some(), miss < 1.0, "at distance {distance}, passing by at {miss}");
+            }
+            if let Some(t) = found.filter(|_| miss < 0.999) {
+                let expected = along - (1.0 - miss * miss).sqrt() / d.length();
+                assert!((t - expected).abs() <= 4.0 * f64::from(f32::EPSILON) * expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_sphere_as_large_as_a_world_is_a_good_floor() {
+    for radius in [1e5, 1e6, 1e7, 1e8] {
+        let geometry = solid_scene(SolidKind::Sphere, ball(DVec3::new(0.0, -radius, 0.0), radius));
+        let hit = geometry.closest_hit(&Ray::new(Vec3::Y, Vec3::NEG_Y)).expect("the floor is below");
+        assert!((hit.t - 1.0).abs() <= 1e-6, "radius {radius}: {}", hit.t);
+    }
+}
+
+#[test]
+fn rays_leave_solids_cleanly() {
+    let squeezed = DAffine3::from_scale(DVec3::new(3.0, 0.2, -1.0));
+    let turned = DAffine3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 1.0);
+    for (name, kind, world_from_object) in [
+        ("sphere", SolidKind::Sphere, DAffine3::IDENTITY),
+        ("tiny sphere", SolidKind::Sphere, ball(DVec3::ZERO, 1e-6)),
+        ("far sphere", SolidKind::Sphere, ball(DVec3::new(1e6, 0.0, -1e6), 100.0)),
+        ("squeezed sphere", SolidKind::Sphere, turned * squeezed),
+        ("egg", SolidKind::Revolve(egg()), turned),
+    ] {
+        let (center, scale) =
+            (world_from_object.translation.as_vec3(), world_from_object.matrix3.x_axis.length() as f32);
+        let geometry = solid_scene(kind, world_from_object);
+        let (self_hits, leaks) = self_hits_and_leaks(&geometry, center, scale, |point, dir| point.spawn(dir));
+        assert_eq!((self_hits, leaks), (0, 0), "{name}");
+    }
+}
+
+#[test]
+fn planes_are_met_at_grazing_angles() {
+    let geometry = solid_scene(SolidKind::Plane, DAffine3::IDENTITY);
+    for slope in [1e-1_f32, 1e-3, 1e-5, 1e-7] {
+        let ray = Ray::new(Vec3::new(0.0, 0.0, 1.0), Vec3::new(1.0, 0.0, -slope));
+        let hit = geometry.closest_hit(&ray).expect("the ray descends");
+        assert!((f64::from(hit.t) * f64::from(slope) - 1.0).abs() <= f64::from(f32::EPSILON));
+        let point = geometry.surface_point(&ray, &hit);
+        assert!(point.p.z == 0.0 && point.p.is_finite() && point.tangent.is_finite());
+    }
+    assert!(geometry.closest_hit(&Ray::new(Vec3::Z, Vec3::X)).is_none());
+    assert!(geometry.closest_hit(&Ray::new(Vec3::ZERO, Vec3::X)).is_none());
+}
+
+/// A convex closed profile from the bottom of the axis to the top.
+fn egg() -> Profile {
+    let point = DVec2::new;
+    Profile {
+        pieces: vec![
+            [point(0.0, -1.0), point(0.5, -1.0), point(0.8, -0.5), point(0.8, 0.0)],
+            [point(0.8, 0.0), point(0.8, 0.6), point(0.4, 1.2), point(0.0, 1.2)],
+        ],
+    }
+}
+
+#[test]
+fn no_ray_escapes_an_egg() {
+    let geometry = solid_scene(SolidKind::Revolve(egg()), ball(DVec3::new(10.0, -3.0, 7.0), 2.0));
+    let mut random = Random(13);
+    for i in 0..20_000 {
+        let mut d = random.direction();
+        d.y *= [1.0, 0.0, 1e-7, 1e-12][i % 4];
+        let o = Vec3::new(10.0, -3.0, 7.0) + random.point() * 0.5;
+        assert!(geometry.closest_hit(&Ray::new(o, d)).is_some(), "from {o} along {d}");
+    }
 }

@@ -260,3 +260,110 @@ fn cut(control: &[DVec2; 4]) -> Vec<[DVec2; 4]> {
     pieces.push(rest);
     pieces
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::RefCell;
+
+    /// Numbers that look random, the same on every run (Knuth 1997, 3.3.4, MMIX).
+    struct Random(u64);
+
+    impl Random {
+        fn unit(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+        }
+
+        fn point(&mut self) -> DVec3 {
+            DVec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0
+        }
+    }
+
+    fn line(from: DVec2, to: DVec2) -> [DVec2; 4] {
+        [from, from.lerp(to, 1.0 / 3.0), from.lerp(to, 2.0 / 3.0), to]
+    }
+
+    /// From the axis at height −1 to the axis at height 1, by curves with cusps and loops, an upright and a level line.
+    fn random_vase(random: &mut Random) -> Profile {
+        let mut from = DVec2::new(0.0, -1.0);
+        let pieces = (0..5).map(|i| {
+            let mut inner = || DVec2::new(random.unit(), random.unit() * 2.0 - 1.0);
+            let (a, b, mut to) = (inner(), inner(), inner());
+            let piece = match i {
+                1 => line(from, DVec2::new(from.x, to.y)),
+                2 => line(from, DVec2::new(to.x, from.y)),
+                4 => [from, a, b, DVec2::Y],
+                _ => [from, a, b, to],
+            };
+            to = piece[3];
+            from = to;
+            piece
+        });
+        Profile { pieces: pieces.collect() }
+    }
+
+    /// All parameters of intersection along the whole line.
+    fn crossings(shape: &Revolve, o: DVec3, d: DVec3) -> Vec<f64> {
+        let all = RefCell::new(Vec::new());
+        shape.intersect(o, d, |t| {
+            all.borrow_mut().push(t);
+            None
+        });
+        all.into_inner()
+    }
+
+    #[test]
+    fn a_line_crosses_a_closed_surface_an_even_number_of_times() {
+        let mut random = Random(1);
+        let mut total = 0;
+        for _ in 0..200 {
+            let shape = Revolve::new(&random_vase(&mut random));
+            for i in 0..500 {
+                // Some rays are level or nearly so, some upright.
+                let (o, mut d) = (random.point() * 1.5, random.point());
+                d.y *= [1.0, 0.0, 1e-4, 1e-7, 1e-12][i % 5];
+                if i % 11 == 0 {
+                    d = DVec3::Y;
+                }
+                let found = crossings(&shape, o, d);
+                total += found.len();
+                assert!(found.len() % 2 == 0, "{found:?} from {o} along {d}");
+            }
+        }
+        assert!(total > 50_000, "only {total} crossings");
+    }
+
+    #[test]
+    fn hits_lie_on_the_surface_and_on_the_ray() {
+        let mut random = Random(2);
+        for _ in 0..200 {
+            let shape = Revolve::new(&random_vase(&mut random));
+            for i in 0..200 {
+                let (o, mut d) = (random.point() * 2.0, random.point());
+                d.y *= [1.0, 1e-4, 1e-7, 0.0][i % 4];
+                let Some((t, parameters)) = shape.intersect(o, d, |t| (t > 0.0).then_some(t as f32)) else {
+                    continue;
+                };
+                let near = o + d * f64::from(t);
+                let (p, n, _) = shape.surface(parameters, near);
+                assert!(p.distance(near) <= 2e-6 * (1.0 + near.length()), "{p} is not {near}, along {d}");
+                assert!((n.length() - 1.0).abs() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn a_turned_line_is_a_cylinder() {
+        let profile = Profile { pieces: vec![line(DVec2::new(0.5, -1.0), DVec2::new(0.5, 1.0))] };
+        let shape = Revolve::new(&profile);
+        let (t, parameters) = shape
+            .intersect(DVec3::new(-2.0, 0.25, 0.0), DVec3::X, |t| Some(t as f32))
+            .expect("it is in the way");
+        assert!((t - 1.5).abs() < 1e-6);
+        let (p, n, _) = shape.surface(parameters, DVec3::new(-0.5, 0.25, 0.0));
+        assert!(p.distance(DVec3::new(-0.5, 0.25, 0.0)) < 1e-6 && n.distance(DVec3::NEG_X) < 1e-9);
+        let area: f64 = shape.elements().map(|(_, area)| area).sum();
+        assert!((area - 2.0 * PI).abs() < 1e-9);
+    }
+}
