@@ -328,7 +328,7 @@ mod tests {
                 }
                 let found = crossings(&shape, o, d);
                 total += found.len();
-                assert!(found.len() % 2 == 0, "{found:?} from {o} along {d}");
+                assert!(found.len().is_multiple_of(2), "{found:?} from {o} along {d}");
             }
         }
         assert!(total > 50_000, "only {total} crossings");
