@@ -1,1 +1,3 @@
-//! (to come)
+//! Text → ast: what was written, includes read, every syntax error noted.
+
+pub mod ast;

@@ -1,6 +1,6 @@
 //! From a hit to the full surface point, and rays that leave it.
 
-use super::{Geometry, Hit, Prim, PrimId, SurfacePoint};
+use super::{AreaSample, Geometry, Hit, Prim, PrimId, SurfacePoint};
 use crate::math::{DVec3, Ray, Vec2, Vec3, float};
 use crate::render::shape::Mesh;
 use crate::render::shape::solid::{SolidHit, orthogonal_tangent};
@@ -29,6 +29,13 @@ impl SurfacePoint {
         let o = offset(self.p, self.p_error, self.n, target - self.p);
         let end = offset(target, target_error, target_n, o - target);
         Ray { o, d: end - o, t_max: 1.0 }
+    }
+}
+
+impl AreaSample {
+    /// The ray that leaves along `dir`, from an origin that lies beyond the rounding errors of the surface.
+    pub fn spawn(&self, dir: Vec3) -> Ray {
+        Ray::new(offset(self.p, self.p_error, self.n, dir), dir)
     }
 }
 
@@ -73,12 +80,15 @@ pub(super) fn triangle_point(mesh: &Mesh, corners: [u32; 3], b: Vec2, prim: Prim
 }
 
 /// The point of a triangle with barycentrics `b`, and the bound γ(7)·Σ|bᵢ·vᵢ| on its error.
+///
+/// The largest axis stands for all three: the triangle test shears the axes into each other, so that a point of the
+/// plane z = 0, where no z is ever rounded, still needs the room that x and y call for.
 pub(super) fn interpolate_point(positions: [Vec3; 3], b: Vec2) -> (Vec3, Vec3) {
     let b = weights(b);
     let terms = [0, 1, 2].map(|i| positions[i].as_dvec3() * b[i]);
     let p = terms[0] + terms[1] + terms[2];
     let error = (terms[0].abs() + terms[1].abs() + terms[2].abs()) * f64::from(float::gamma(7));
-    (p.as_vec3(), error.as_vec3())
+    (p.as_vec3(), Vec3::splat(error.max_element() as f32))
 }
 
 /// All three barycentrics from the last two.

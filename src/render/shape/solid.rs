@@ -194,7 +194,9 @@ impl PlacedSolid {
         let axis = self.solid.world_from_object.translation - from.as_dvec3();
         let distance = axis.length();
         let sin2 = (radius / distance) * (radius / distance);
-        let outside = (distance - radius) * (distance + radius) > 0.0 && sin2 < 1.0;
+        // A point of the sphere itself may lie outside by its rounding, yet it looks at the inner side.
+        let rounding = 16.0 * f64::from(float::UNIT_ROUND_OFF) * (f64::from(from.abs().max_element()) + distance);
+        let outside = distance - radius > rounding && sin2 < 1.0;
         let cos = (1.0 - sin2).sqrt();
         let cone = Cone { axis: axis / distance, radius, sin2, one_minus_cos: sin2 / (1.0 + cos) };
         (outside && cone.pdf().is_finite()).then_some(cone)
