@@ -130,8 +130,8 @@ fn style(color: Color) -> Style {
 
 /// The terminal's width, between 60 and 120 columns.
 fn terminal_width() -> usize {
-    let columns = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
-    columns.unwrap_or(usize::from(indicatif::TermSize::columns())).clamp(60, 120)
+    let columns = terminal_size::terminal_size_of(std::io::stderr()).map(|(width, _)| usize::from(width.0));
+    columns.unwrap_or(100).clamp(60, 120)
 }
 
 /// Whether the locale is one of UTF-8; where nothing is said, plain characters are safe.
