@@ -140,7 +140,7 @@ pub fn mis_weight(a: f32, b: f32) -> f32 {
 }
 
 /// The share of light left after `distance` metres of a medium that absorbs `sigma` per metre.
-fn transmittance(sigma: Rgb, distance: f32) -> Rgb {
+pub(in crate::render) fn transmittance(sigma: Rgb, distance: f32) -> Rgb {
     if sigma.is_black() {
         return Rgb::WHITE;
     }
@@ -154,7 +154,7 @@ const SAFE_SPECULAR_BOUNCES: u32 = 32;
 const ENDLESS_BOUNCES: u32 = 8;
 
 /// The probability with which a path of the given worth (its largest throughput) was allowed to go on; `None` if it ends.
-fn roulette(worth: f32, depth: u32, specular: bool, u: impl FnOnce() -> f32) -> Option<f32> {
+pub(super) fn roulette(worth: f32, depth: u32, specular: bool, u: impl FnOnce() -> f32) -> Option<f32> {
     if worth.is_nan() || worth < 1e-30 {
         return None;
     }
