@@ -111,10 +111,10 @@ impl<'a> Resolver<'a> {
         scope
     }
 
-    /// Evaluates the definitions of a block that nothing asked for, for their mistakes.
+    /// Evaluates the definitions of a block in `env` that nothing asked for, for their mistakes.
     fn evaluate_block(&mut self, scope: &Env<'a>, env: &Env<'a>) {
         if Rc::ptr_eq(scope, env) {
-            return; // the block defines nothing
+            return; // it defines nothing
         }
         for definition in scope.in_order() {
             if matches!(definition.kind, Kind::Let(_)) {
