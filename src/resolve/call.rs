@@ -3,8 +3,8 @@
 use super::error::Error;
 use super::scope::Scope;
 use super::value::Function;
-use super::{Env, Resolver, Value};
-use crate::diag::{Trail, did_you_mean};
+use super::{Env, Resolver, Step, Value};
+use crate::diag::did_you_mean;
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::{Arg, Expr, ExprKind, Formal, Name};
@@ -73,7 +73,7 @@ impl<'a> Resolver<'a> {
         if !complete {
             return Value::Poison;
         }
-        self.trail.push(Trail { span: used, text: format!("in this call of `{}`", name.value) });
+        self.trail.push(Step::Call(name, used));
         let value = self.run(function, &scope);
         self.trail.pop();
         value

@@ -4,8 +4,8 @@ use super::builtin;
 use super::dimension::{Dimension, Quantity, UNITS, with_unit};
 use super::error::Error;
 use super::scope::{Kind, Scope};
-use super::{Env, Resolver, Value, color};
-use crate::diag::{Trail, did_you_mean};
+use super::{Env, Resolver, Step, Value, color};
+use crate::diag::did_you_mean;
 use crate::ir;
 use crate::schema;
 use crate::source::Span;
@@ -229,12 +229,12 @@ impl<'a> Resolver<'a> {
                 return false;
             }
             let scope = Scope::new(Some(Rc::clone(env)));
-            let text = match &value {
-                Value::Number(quantity) => format!("in the turn `{} = {}`", name.value, quantity.write()),
-                _ => format!("in a turn of `{}`", name.value),
+            let number = match value {
+                Value::Number(quantity) => Some(quantity),
+                _ => None,
             };
             scope.give(&name.value, name.span, value);
-            this.trail.push(Trail { span: name.span, text });
+            this.trail.push(Step::Turn(name, number));
             let go_on = turn(this, &scope);
             this.trail.pop();
             go_on

@@ -28,6 +28,7 @@ use crate::ir;
 use crate::source::{SourceMap, Span, Spanned};
 use crate::syntax::ast::{self, Entry, FileIndex, ItemKind};
 use budget::Budget;
+use dimension::Quantity;
 pub use error::Error;
 use miette::Diagnostic;
 use rustc_hash::FxHashSet;
@@ -80,7 +81,7 @@ struct Resolver<'a> {
     /// Metres in a bare length, where we are.
     unit: f64,
     /// The calls and turns of loops we are in, the outermost first.
-    trail: Vec<Trail>,
+    trail: Vec<Step<'a>>,
     /// The definitions that are being evaluated.
     running: Vec<Rc<Definition<'a>>>,
     /// The functions we are in, by the places of their names.
@@ -94,6 +95,25 @@ struct Resolver<'a> {
     environment: Option<Span>,
     render: Option<Span>,
     budget: Budget,
+}
+
+/// A step on the way to where we are; put into words only when something goes wrong there.
+#[derive(Clone)]
+enum Step<'a> {
+    Call(&'a ast::Name, Span),
+    Turn(&'a ast::Name, Option<Quantity>),
+}
+
+impl Step<'_> {
+    fn told(&self) -> Trail {
+        match self {
+            Self::Call(name, span) => Trail { span: *span, text: format!("in this call of `{}`", name.value) },
+            Self::Turn(name, Some(value)) => {
+                Trail { span: name.span, text: format!("in the turn `{} = {}`", name.value, value.write()) }
+            }
+            Self::Turn(name, None) => Trail { span: name.span, text: format!("in a turn of `{}`", name.value) },
+        }
+    }
 }
 
 impl<'a> Resolver<'a> {
@@ -125,7 +145,7 @@ impl<'a> Resolver<'a> {
         let offset = error.labels().and_then(|mut labels| labels.next()).map_or(0, |label| label.offset());
         let code = error.code().map(|code| code.to_string()).unwrap_or_default();
         if self.reported.insert((code, offset)) {
-            let trail = self.trail.iter().rev().cloned().collect();
+            let trail = self.trail.iter().rev().map(Step::told).collect();
             self.problems.push_with_trail(error, trail);
         }
     }
