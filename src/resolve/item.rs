@@ -93,7 +93,7 @@ impl<'a> Resolver<'a> {
                 }
             }
         }
-        self.evaluate_block(&scope);
+        self.evaluate_block(&scope, env);
     }
 
     /// A scope with what a block defines; the scope around it when that is nothing.
@@ -111,8 +111,11 @@ impl<'a> Resolver<'a> {
         scope
     }
 
-    /// Evaluates the definitions of a block that nothing asked for, for their mistakes.
-    fn evaluate_block(&mut self, scope: &Env<'a>) {
+    /// Evaluates the definitions of a block in `env` that nothing asked for, for their mistakes.
+    fn evaluate_block(&mut self, scope: &Env<'a>, env: &Env<'a>) {
+        if Rc::ptr_eq(scope, env) {
+            return; // it defines nothing
+        }
         for definition in scope.in_order() {
             if matches!(definition.kind, Kind::Let(_)) {
                 self.value_of(scope, &definition);
@@ -243,7 +246,7 @@ impl<'a> Resolver<'a> {
             }
             result = Some((value, span));
         }
-        self.evaluate_block(&scope);
+        self.evaluate_block(&scope, env);
         result.map_or_else(|| self.no_value(block.span), |(value, _)| value)
     }
 
@@ -298,7 +301,7 @@ impl<'a> Resolver<'a> {
                 self.item(item, &scope, &mut sink);
             }
         }
-        self.evaluate_block(&scope);
+        self.evaluate_block(&scope, env);
         match sink {
             Sink::Group(members) => members,
             Sink::Scene => Vec::new(),

@@ -53,13 +53,13 @@ struct Balance<'a> {
 impl<'a> Balance<'a> {
     fn of(text: &'a [u8], marks: &[Mark], by_indent: bool) -> Vec<Repair> {
         let mut balance = Self { text, open: Vec::new(), repairs: Vec::new() };
-        for &mark in marks {
+        for (index, &mark) in marks.iter().enumerate() {
             if by_indent && mark.is_first {
                 balance.close_by_indent(mark);
             }
             match mark.bracket {
                 Some(b'(' | b'[' | b'{') => balance.open.push(mark),
-                Some(close) => balance.close(mark, close, by_indent),
+                Some(close) => balance.close(mark, close, by_indent, &marks[index + 1..]),
                 None => {}
             }
         }
@@ -93,7 +93,7 @@ impl<'a> Balance<'a> {
     }
 
     /// Pairs a closing bracket with the one it closes.
-    fn close(&mut self, mark: Mark, close: u8, by_indent: bool) {
+    fn close(&mut self, mark: Mark, close: u8, by_indent: bool, rest: &[Mark]) {
         let at = mark.offset;
         let Some(&top) = self.open.last() else { return self.repairs.push(Repair::Remove { at }) };
         let partner = self.open.iter().rposition(|open| closer(open) == Some(close));
@@ -109,7 +109,7 @@ impl<'a> Balance<'a> {
                 }
                 self.open.pop();
             }
-            _ if top.line == mark.line => {
+            _ if top.line == mark.line && !closes_on_line(&top, rest) => {
                 self.open.pop();
                 let close = closer(&top).expect("only opening brackets are kept");
                 self.repairs.push(Repair::Replace { at, open: top.offset, close });
@@ -117,6 +117,20 @@ impl<'a> Balance<'a> {
             _ => self.repairs.push(Repair::Remove { at }),
         }
     }
+}
+
+/// Whether `open` is closed by the marks after it on its line.
+fn closes_on_line(open: &Mark, rest: &[Mark]) -> bool {
+    let mut depth = 0_usize;
+    for mark in rest.iter().take_while(|mark| mark.line == open.line) {
+        match mark.bracket {
+            Some(b'(' | b'[' | b'{') => depth += 1,
+            Some(close) if depth == 0 => return closer(open) == Some(close),
+            Some(_) => depth -= 1,
+            None => {}
+        }
+    }
+    false
 }
 
 /// The bracket that closes an opening one.

@@ -3,7 +3,7 @@
 use super::ast::{Allow, Block, Entry, ExprKind, Field, Item, ItemKind};
 use super::error::SyntaxError;
 use super::grammar::{Parts, Rule};
-use super::lower::{Lower, item, poison};
+use super::lower::{Lower, is_reserved, item, poison};
 use crate::diag::did_you_mean;
 use pest::iterators::Pair;
 
@@ -81,9 +81,10 @@ impl Lower<'_> {
         if follows_on_line && self.is_part_of_mistake(rule, sequence) {
             return;
         }
-        if follows_on_line {
+        if follows_on_line && self.may_begin_entry(rule, start) {
             self.check_separation(&pair, in_block, sequence);
         }
+        let is_in_mistake = follows_on_line && sequence.last == Last::Mistake;
         let before = self.errors.len();
         match rule {
             Rule::field | Rule::bare_field => self.field_entry(pair, in_block, sequence),
@@ -95,9 +96,15 @@ impl Lower<'_> {
                 sequence.push(item);
             }
         }
-        if self.errors.len() > before {
+        if is_in_mistake || self.errors.len() > before {
             sequence.last = Last::Mistake;
         }
+    }
+
+    /// Whether what stands at `start` is an entry of its own, and not the rest of the one before.
+    fn may_begin_entry(&self, rule: Rule, start: usize) -> bool {
+        let begins = |c: char| c.is_ascii_alphanumeric() || "_\"#([{".contains(c);
+        rule != Rule::stray && self.text.text[start..].starts_with(begins)
     }
 
     /// What cannot be read after a mistake on its line is part of it.
@@ -133,13 +140,19 @@ impl Lower<'_> {
         sequence.poisoned = true;
         sequence.last = Last::Mistake;
         let hint = did_you_mean(&word, ITEM_WORDS);
+        let example =
+            "an item is a definition, as in `let a = 1m`, or a block with its name, as in `sphere { .. }`";
         let is_value = matches!(next.as_rule(), Rule::expr | Rule::object | Rule::choice);
         if in_block && is_value && hint.is_none() {
             let sign = ":";
             let (place, hint) = (format!("after `{word}`"), format!("write `{word}: ..`"));
             self.note(SyntaxError::MissingSign { sign, place, hint, at: at.after() });
         } else {
-            self.note(SyntaxError::UnknownItem { word, at, hint });
+            self.note(SyntaxError::UnknownItem {
+                word,
+                at,
+                hint: hint.unwrap_or_else(|| example.to_owned()),
+            });
         }
     }
 
@@ -147,6 +160,15 @@ impl Lower<'_> {
     fn field_entry(&mut self, pair: Pair<'_, Rule>, in_block: bool, sequence: &mut Sequence) {
         let mut parts = Parts::of(pair);
         let Some(name) = parts.next().map(|name| self.word(&name)) else { return };
+        if is_reserved(&name) && parts.peek_rule() == Some(Rule::wrong_equals) {
+            self.note(SyntaxError::MissingName {
+                what: "this definition",
+                example: "goblet",
+                at: name.span.after(),
+            });
+            sequence.push(item(ItemKind::Poison, name.span));
+            return;
+        }
         // What stands outside every block is no field, so its sign is not worth a word.
         if !in_block {
             if sequence.last != Last::Mistake {
@@ -215,18 +237,27 @@ impl Lower<'_> {
                 last = self.element_comma(&part, last);
                 continue;
             }
-            if last == Last::Open {
+            if last == Last::Open
+                && self.may_begin_entry(part.as_rule(), start)
+                && part.as_rule() != Rule::broken
+            {
                 let (at, next) = (self.text.after_token(start), self.text.first_char(start));
                 let hint = "write `,` between them";
                 self.note(SyntaxError::MissingComma { what, hint, at, next });
             }
             match part.as_rule() {
-                Rule::junk if last == Last::Mistake => {}
                 Rule::junk => self.unreadable(&part),
-                Rule::broken => {}
+                Rule::broken | Rule::closer => {}
                 _ => elements.extend(lower(self, part)),
             }
-            last = if self.errors.len() > before { Last::Mistake } else { Last::Open };
+            // Up to the next comma all belongs to the first mistake.
+            if last == Last::Mistake {
+                self.errors.truncate(before);
+            } else if self.errors.len() > before {
+                last = Last::Mistake;
+            } else {
+                last = Last::Open;
+            }
         }
         elements
     }

@@ -225,6 +225,16 @@ pub enum SyntaxError {
         at: Span,
     },
 
+    #[error("no comment is open here")]
+    #[diagnostic(
+        code(snell::syntax::stray_comment_end),
+        help("remove `*/`, or write `/*` where the comment begins")
+    )]
+    StrayCommentEnd {
+        #[label("closes nothing")]
+        at: Span,
+    },
+
     #[error("the character {shown} means nothing here")]
     #[diagnostic(code(snell::syntax::unknown_character), help("{hint}"))]
     UnknownCharacter {
@@ -244,13 +254,12 @@ pub enum SyntaxError {
     },
 
     #[error("no item begins with `{word}`")]
-    #[diagnostic(code(snell::syntax::unknown_item))]
+    #[diagnostic(code(snell::syntax::unknown_item), help("{hint}"))]
     UnknownItem {
         word: String,
+        hint: String,
         #[label("not a word that begins an item")]
         at: Span,
-        #[help]
-        hint: Option<String>,
     },
 
     #[error("`{name}` stands outside any block")]
@@ -264,7 +273,7 @@ pub enum SyntaxError {
         at: Span,
     },
 
-    #[error("this is {language}, not Snell")]
+    #[error("this is {language}, not a scene in Snell")]
     #[diagnostic(code(snell::syntax::foreign), help("{hint}"))]
     Foreign {
         language: &'static str,

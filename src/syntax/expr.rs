@@ -30,7 +30,8 @@ impl Lower<'_> {
     pub(super) fn object(&mut self, pair: Pair<'_, Rule>) -> Object {
         let start = self.text.span_of(&pair);
         let mut parts = Parts::of(pair);
-        let mut words = parts.take(Rule::head).into_iter().flat_map(Pair::into_inner).map(|word| self.word(&word));
+        let mut words =
+            parts.take(Rule::head).into_iter().flat_map(Pair::into_inner).map(|word| self.word(&word));
         let kind = words.next().unwrap_or_else(|| Spanned::new(String::new(), start));
         let second = words.next();
         drop(words);
@@ -95,7 +96,8 @@ impl Lower<'_> {
     /// `expr = { prefix* ~ operand ~ (infix ~ prefix* ~ operand)* }`, flat; climbed here.
     pub(super) fn expr(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let span = self.text.span_of(&pair);
-        let is_operator = |part: &Pair<'_, Rule>| matches!(part.as_rule(), Rule::infix | Rule::prefix);
+        let is_operator =
+            |part: &Pair<'_, Rule>| matches!(part.as_rule(), Rule::infix | Rule::last_infix | Rule::prefix);
         let operators = pair.clone().into_inner().filter(is_operator).count();
         let mut parts = Parts::of(pair);
         if operators == 0 {
@@ -113,7 +115,9 @@ impl Lower<'_> {
                 break;
             }
             parts.next();
-            self.check_infix(&sign);
+            if left.kind != ExprKind::Poison {
+                self.check_infix(&sign);
+            }
             // `^` alone groups from the right.
             let right = self.climb(parts, strength + u8::from(op != BinaryOp::Power));
             let op = Spanned::new(op, self.text.span_of(&sign));
@@ -147,9 +151,8 @@ impl Lower<'_> {
             Rule::chain => self.chain(pair),
             Rule::on => self.on(pair),
             Rule::missing_operand => {
-                let at = self.text.after_token(pair.as_span().start());
-                self.missing_operand(at);
-                poison(at)
+                self.missing_operand(&pair);
+                poison(self.text.span_of(&pair))
             }
             _ => self.literal(pair),
         };

@@ -61,8 +61,7 @@ fn is_silent(rule: Rule) -> bool {
     use Rule::*;
     matches!(
         rule,
-        EOI
-            | kw_snell
+        EOI | kw_snell
             | kw_allow
             | kw_include
             | kw_import

@@ -1,6 +1,6 @@
 //! Items: what stands at the top level, in groups, loops and choices.
 
-use super::ast::{Expr, Formal, Function, Item, ItemKind, Name, Place};
+use super::ast::{Expr, ExprKind, Formal, Function, Item, ItemKind, Name, Place};
 use super::error::SyntaxError;
 use super::grammar::{Parts, Rule};
 use super::lower::{Lower, Request, item, poison};
@@ -141,12 +141,16 @@ impl Lower<'_> {
 
     /// The value of a definition; silent when something before it was reported.
     fn definition_value(&mut self, parts: &mut Parts<'_>, name: Option<&Name>, before: usize) -> Expr {
-        let reported = self.errors.len() > before;
-        if reported && let Some(missing) = parts.take(Rule::missing_value) {
-            return poison(self.text.after_token(missing.as_span().start()));
+        let reported = self.errors.len();
+        let (what, hint) = name.map_or_else(Default::default, |name| {
+            (format!("the value of `{}`", name.value), "write it after `=`".to_owned())
+        });
+        let value = self.given_or_poison(parts, &what, &hint);
+        // What stands where a definition broke off is part of the mistake, not a value.
+        if before < reported && (name.is_none() || value.kind == ExprKind::Poison) {
+            self.errors.truncate(reported);
         }
-        let name = name.map_or("this definition", |name| &name.value);
-        self.given_or_poison(parts, &format!("the value of `{name}`"), &format!("write `{name} = ..`"))
+        value
     }
 
     /// `function = { kw_fn ~ binder ~ formals ~ "->" ~ ident ~ body }`
@@ -211,7 +215,7 @@ impl Lower<'_> {
         self.of_type(parts, name, "fn ring(n: int) -> object")
     }
 
-    /// `repeat = { kw_for ~ binder ~ kw_in ~ expr ~ body }`
+    /// `repeat = { kw_for ~ loop_name ~ kw_in ~ expr ~ body }`
     fn repeat(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
         let mut parts = Parts::of(pair);
         let name = self.binder(&mut parts, "this loop", "i");

@@ -101,12 +101,24 @@ impl Lower<'_> {
 
     /// Characters that begin nothing.
     fn unknown(&mut self, pair: &Pair<'_, Rule>) -> ExprKind {
-        let Some(first) = pair.as_str().chars().next() else { return ExprKind::Poison };
-        let start = pair.as_span().start();
-        let at = self.text.span(start, start + first.len_utf8());
-        let (shown, hint) = describe(first);
-        self.note(SyntaxError::UnknownCharacter { shown, hint, at });
+        self.unknown_at(pair.as_span().start());
         ExprKind::Poison
+    }
+
+    /// Reports the character at `offset`, which begins nothing.
+    fn unknown_at(&mut self, offset: usize) {
+        let Some(c) = self.text.text[offset..].chars().next() else { return };
+        let (shown, hint) = describe(c);
+        self.note(SyntaxError::UnknownCharacter { shown, hint, at: self.text.first_char(offset) });
+    }
+
+    /// Reports a letter of another alphabet where a name belongs.
+    pub(super) fn foreign_letter_at(&mut self, offset: usize) -> bool {
+        let found = self.text.text[offset..].starts_with(|c: char| !c.is_ascii() && c.is_alphabetic());
+        if found {
+            self.unknown_at(offset);
+        }
+        found
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::ast::{Entry, Expr, File, FileIndex, Item, Program};
 use super::error::SyntaxError;
+use super::foreign::recognise;
 use super::grammar::{Parts, Rule, Snell};
 use super::lower::{Lower, Request};
 use super::repair::repair;
@@ -71,6 +72,9 @@ impl<'a> Loader<'a> {
             Ok(repaired) => repaired,
             Err(error) => return self.refuse(error).unwrap_or_default(),
         };
+        if let Some(error) = recognise(&repaired.text, base) {
+            return self.refuse(error).unwrap_or_default();
+        }
         let mut load = |request: &Request| self.load(source, request);
         let mut lower = Lower::new(repaired.as_text(&text, base), &mut load);
         let items = lower.file();
@@ -210,7 +214,8 @@ impl Lower<'_> {
             let at = *first;
             self.note(SyntaxError::Semicolon { others, at });
         }
-        let follows = |error: &SyntaxError| guesses.iter().any(|&guess| self.text.shares_line(error.at(), guess));
+        let follows =
+            |error: &SyntaxError| guesses.iter().any(|&guess| self.text.shares_line(error.at(), guess));
         errors.extend(self.errors.iter().filter(|error| !follows(error)).cloned());
         errors
     }

@@ -78,8 +78,11 @@ impl<'a> Lower<'a> {
     ) -> Option<Name> {
         let pair = parts.next()?;
         if pair.as_rule() == Rule::missing_name {
-            let at = self.text.after_token(pair.as_span().start());
-            self.note(SyntaxError::MissingName { what, example, at });
+            let offset = pair.as_span().start();
+            if !self.foreign_letter_at(offset) {
+                let at = self.text.after_token(offset);
+                self.note(SyntaxError::MissingName { what, example, at });
+            }
             return None;
         }
         let name = self.word(&pair);
@@ -99,7 +102,9 @@ impl<'a> Lower<'a> {
         let pair = parts.next()?;
         if pair.as_rule() == Rule::missing_value {
             let at = self.text.after_token(pair.as_span().start());
-            self.note(missing(at));
+            if !self.reserved_word_at(pair.as_span().start()) {
+                self.note(missing(at));
+            }
             return Some(poison(at));
         }
         Some(self.value(pair))

@@ -28,6 +28,7 @@ pub(super) fn repair(text: &str, base: u32) -> Result<Repaired, SyntaxError> {
     }
     let repairs = balance(&scan.text, &scan.marks);
     let mut errors: Vec<SyntaxError> = scan.open_quotes.iter().map(|quote| quote.report(span)).collect();
+    errors.extend(scan.stray_ends.iter().map(|&at| SyntaxError::StrayCommentEnd { at: span(at, at + 2) }));
     match scan.open_comment {
         // What the comment swallows is not missing.
         Some(start) => errors.push(SyntaxError::UnclosedComment { at: span(start, start + 2) }),

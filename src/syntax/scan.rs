@@ -18,6 +18,8 @@ pub(super) struct Scan {
     pub open_quotes: Vec<OpenQuote>,
     /// Where a comment begins that does not end.
     pub open_comment: Option<usize>,
+    /// Where a comment ends that did not begin.
+    pub stray_ends: Vec<usize>,
 }
 
 /// A bracket, or the first word of a line.
@@ -58,6 +60,7 @@ pub(super) fn scan(text: &str) -> Scan {
             comments: Vec::new(),
             open_quotes: Vec::new(),
             open_comment: None,
+            stray_ends: Vec::new(),
         },
     };
     if text.starts_with('\u{FEFF}') {
@@ -92,6 +95,11 @@ impl Scanner<'_> {
             b'\t' | b'\r' => self.blank(self.at..self.at + 1),
             b'/' if self.next_is(b'/') => self.line_comment(),
             b'/' if self.next_is(b'*') => self.block_comment(),
+            // `*//` is an operator before a comment.
+            b'*' if self.next_is(b'/') && !matches!(self.bytes.get(self.at + 2), Some(b'/' | b'*')) => {
+                self.scan.stray_ends.push(self.at);
+                self.blank(self.at..self.at + 2);
+            }
             b'"' => self.text(),
             b'(' | b')' | b'[' | b']' | b'{' | b'}' => self.mark(Some(byte)),
             _ if self.indent.is_none() => self.mark(None),
@@ -188,7 +196,10 @@ impl Scanner<'_> {
 impl OpenQuote {
     /// The report, places given by `span`.
     pub(super) fn report(self, span: impl Fn(usize, usize) -> crate::source::Span) -> SyntaxError {
-        SyntaxError::UnclosedQuote { at: span(self.close, self.close), opened: span(self.open, self.open + 1) }
+        SyntaxError::UnclosedQuote {
+            at: span(self.close, self.close),
+            opened: span(self.open, self.open + 1),
+        }
     }
 }
 

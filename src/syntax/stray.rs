@@ -2,8 +2,7 @@
 
 use super::error::SyntaxError;
 use super::grammar::{Parts, Rule};
-use super::lower::{Lower, MAX_DEPTH};
-use crate::source::Span;
+use super::lower::{Lower, MAX_DEPTH, is_reserved};
 use pest::iterators::Pair;
 
 impl Lower<'_> {
@@ -19,16 +18,14 @@ impl Lower<'_> {
 
     fn foreign(&mut self, language: &'static str, pair: &Pair<'_, Rule>) {
         let at = self.text.first_line_of(pair);
-        self.note(SyntaxError::Foreign { language, hint: String::new(), at });
+        let hint = "`snell doc` shows how the same is said here".to_owned();
+        self.note(SyntaxError::Foreign { language, hint, at });
     }
 
     /// `version = { kw_snell ~ number }`, the first thing in a file.
     pub(super) fn version(&mut self, parts: &mut Parts<'_>) {
         let Some(version) = parts.take(Rule::version) else {
-            let is_foreign = matches!(parts.peek_rule(), Some(Rule::directive | Rule::command));
-            if !is_foreign {
-                self.note(SyntaxError::MissingVersion { at: self.text.span(0, 0) });
-            }
+            self.note(SyntaxError::MissingVersion { at: self.text.span(0, 0) });
             return;
         };
         let number = Parts::of(version).next();
@@ -48,9 +45,19 @@ impl Lower<'_> {
 
     /// Text that no rule reads.
     pub(super) fn unreadable(&mut self, pair: &Pair<'_, Rule>) {
-        let at = self.text.first_line_of(pair);
-        let what = format!("`{}`", pair.as_str().trim().chars().take(20).collect::<String>());
-        self.note(SyntaxError::Unreadable { what, hint: "remove it".to_owned(), at });
+        let (at, written) = (self.text.first_line_of(pair), pair.as_str().trim());
+        let shown: String = written.chars().take(20).collect();
+        let dots = if shown.len() < written.len() { ".." } else { "" };
+        let hint = match written.split(|c: char| !c.is_ascii_alphanumeric()).next() {
+            Some("else") => "`else` follows the block of an `if`",
+            Some("in") => "`in` follows the name of a loop or the default of a `param`",
+            Some("as") => "`as` follows `import \"file.snell\"` or `place thing`",
+            Some("then" | "per" | "or" | "and") => "an operator stands between two values",
+            _ if written.starts_with('<') => "write a point or vector between parentheses: `(0m, 1m, 0m)`",
+            _ if written.starts_with(':') => "a colon follows the name of a field, parameter or argument",
+            _ => "remove it, or finish what stands before it",
+        };
+        self.note(SyntaxError::Unreadable { what: format!("`{shown}{dots}`"), hint: hint.to_owned(), at });
     }
 
     /// Tells those who wrote an operator of another language which one it is here, and refuses `-x` at a line's start.
@@ -76,9 +83,26 @@ impl Lower<'_> {
         self.note(SyntaxError::WrongSign { written, wanted, hint, at });
     }
 
-    /// An operator with nothing on its right; `at` is the place after it.
-    pub(super) fn missing_operand(&mut self, at: Span) {
-        let before = self.text.word_before(at);
-        self.note(SyntaxError::MissingOperand { operator: before, at });
+    /// An operator with nothing on its right, or with a word that is no value.
+    pub(super) fn missing_operand(&mut self, pair: &Pair<'_, Rule>) {
+        let offset = pair.as_span().start();
+        if self.reserved_word_at(offset) {
+            return;
+        }
+        let (operator, at) = (self.text.operator_before(offset), self.text.after_token(offset));
+        self.note(SyntaxError::MissingOperand { operator, at });
+    }
+
+    /// Reports a word of the language that stands, on the line at hand, where a value belongs.
+    pub(super) fn reserved_word_at(&mut self, offset: usize) -> bool {
+        let rest = &self.text.text[offset..];
+        let word =
+            &rest[..rest.bytes().take_while(|byte| byte.is_ascii_alphanumeric() || *byte == b'_').count()];
+        let found = is_reserved(word) && !self.text.begins_line(offset);
+        if found {
+            let at = self.text.span(offset, offset + word.len());
+            self.note(SyntaxError::ReservedWord { word: word.to_owned(), at });
+        }
+        found
     }
 }

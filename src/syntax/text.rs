@@ -82,9 +82,9 @@ impl Text<'_> {
         self.begins_line(offset) && !self.text[offset + 1..].starts_with([' ', '\t', '\r', '\n'])
     }
 
-    /// The operator that ends at a place.
-    pub(super) fn word_before(&self, at: Span) -> String {
-        let before = &self.text[..(at.start - self.base) as usize];
+    /// The operator before `offset`.
+    pub(super) fn operator_before(&self, offset: usize) -> String {
+        let before = self.text[..offset].trim_end();
         let is_word = before.ends_with(|c: char| c.is_ascii_alphabetic());
         let begin = before.trim_end_matches(|c: char| {
             if is_word { c.is_ascii_alphabetic() } else { "+-*/%^=!<>&|.".contains(c) }

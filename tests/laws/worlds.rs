@@ -45,7 +45,8 @@ pub fn cuboid(min: Vec3, max: Vec3, inwards: bool, material: u32) -> Vec<Mesh> {
     let size = max - min;
     let [x, y, z] = [Vec3::X * size.x, Vec3::Y * size.y, Vec3::Z * size.z];
     let faces = [(min, y, x), (min, z, y), (min, x, z), (max, -x, -y), (max, -y, -z), (max, -z, -x)];
-    let oriented = |(origin, u, v)| if inwards { quad(origin, v, u, material) } else { quad(origin, u, v, material) };
+    let oriented =
+        |(origin, u, v)| if inwards { quad(origin, v, u, material) } else { quad(origin, u, v, material) };
     faces.map(oriented).into()
 }
 
@@ -114,7 +115,8 @@ pub fn cornell(side: u32, specular: bool) -> Parts {
         quad(Vec3::new(-0.25, 1.999, -0.25), Vec3::X * 0.5, Vec3::Z * 0.5, 3),
     ];
     if specular {
-        parts.solids = vec![sphere(Vec3::new(-0.4, 0.4, -0.3), 0.4, 4), sphere(Vec3::new(0.4, 0.4, 0.3), 0.4, 5)];
+        parts.solids =
+            vec![sphere(Vec3::new(-0.4, 0.4, -0.3), 0.4, 4), sphere(Vec3::new(0.4, 0.4, 0.3), 0.4, 5)];
     } else {
         parts.meshes.extend(cuboid(Vec3::new(-0.7, 0.0, -0.6), Vec3::new(-0.1, 1.2, 0.0), false, 0));
         parts.meshes.extend(cuboid(Vec3::new(0.1, 0.0, 0.0), Vec3::new(0.7, 0.6, 0.6), false, 0));
