@@ -250,12 +250,10 @@ impl Task {
         }
         let events = self.events.as_ref().map(|events| {
             [0, 1, 2].map(|axis| {
-                let kept = events[axis].iter().filter_map(|event| {
-                    let reference = places[event.reference as usize];
-                    (reference != u32::MAX).then_some(Event { reference, ..*event })
-                });
                 let fresh = sorted_events(clipped.iter().map(|&i| (i, &references[i as usize])), axis);
-                merge(kept, fresh, events[axis].len())
+                let mut kept = still_here(&events[axis], &places);
+                merge(&mut kept, &fresh);
+                kept
             })
         });
         Task { cell, references, events, depth_left: self.depth_left - 1, budget: 0 }
@@ -325,16 +323,34 @@ fn sorted_events<'a>(references: impl Iterator<Item = (u32, &'a Reference)>, axi
     events
 }
 
-/// Two sorted lists of faces as one.
-fn merge(kept: impl Iterator<Item = Event>, fresh: Vec<Event>, capacity: usize) -> Vec<Event> {
-    let mut merged = Vec::with_capacity(capacity);
-    let mut fresh = fresh.into_iter().peekable();
-    for event in kept {
-        while let Some(first) = fresh.next_if(|first| first.order(&event).is_lt()) {
-            merged.push(first);
-        }
-        merged.push(event);
+/// The faces of the references that have a place, which they take on.
+fn still_here(events: &[Event], places: &[u32]) -> Vec<Event> {
+    let mut kept = events.to_vec();
+    let mut count = 0;
+    // Each event is written, and only the count depends on its fate: which is next cannot be predicted.
+    for i in 0..kept.len() {
+        let event = kept[i];
+        let reference = places[event.reference as usize];
+        kept[count] = Event { reference, ..event };
+        count += usize::from(reference != u32::MAX);
     }
-    merged.extend(fresh);
-    merged
+    kept.truncate(count);
+    kept
+}
+
+/// Merges sorted faces into others, from the last to the first.
+fn merge(kept: &mut Vec<Event>, fresh: &[Event]) {
+    let (mut i, mut j) = (kept.len(), fresh.len());
+    kept.extend_from_slice(fresh);
+    let mut slot = kept.len();
+    while j > 0 {
+        slot -= 1;
+        if i > 0 && kept[i - 1].order(&fresh[j - 1]).is_gt() {
+            kept[slot] = kept[i - 1];
+            i -= 1;
+        } else {
+            kept[slot] = fresh[j - 1];
+            j -= 1;
+        }
+    }
 }

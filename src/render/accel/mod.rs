@@ -2,6 +2,7 @@
 
 pub mod build;
 mod clip;
+mod collapse;
 mod sah;
 pub mod wide;
 

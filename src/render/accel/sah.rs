@@ -5,7 +5,7 @@ use crate::math::Bounds;
 use crate::render::shape::triangle::LANES;
 
 /// The price of visiting an inner node; that of a leaf's block of triangles is 1.
-const TRAVERSAL_COST: f64 = 0.9;
+const TRAVERSAL_COST: f64 = 1.0;
 /// The factor on the price of a split that cuts off empty space (Wald, Havran 2006, section 3.2).
 const EMPTY_BONUS: f64 = 0.8;
 /// Planes tried along an axis where the sweep would be too dear.
@@ -143,7 +143,12 @@ impl Chooser {
         if !(self.cell.min[axis] < position && position < self.cell.max[axis]) {
             return;
         }
-        let [low, high] = self.cell.split(axis, position).map(|half| half.half_area() * self.inverse_area);
+        // The area of a slab is that of its face and of its rim, which grows with its thickness.
+        let size = self.cell.size().as_dvec3();
+        let (width, height) = (size[(axis + 1) % 3], size[(axis + 2) % 3]);
+        let share = |thickness: f64| (width * height + (width + height) * thickness) * self.inverse_area;
+        let low = share(f64::from(position) - f64::from(self.cell.min[axis]));
+        let high = share(f64::from(self.cell.max[axis]) - f64::from(position));
         let mut weigh = |below: usize, above: usize, planar_below: bool| {
             let bonus = if below == 0 || above == 0 { EMPTY_BONUS } else { 1.0 };
             let cost = bonus * (TRAVERSAL_COST + low * leaf_cost(below) + high * leaf_cost(above));

@@ -5,12 +5,13 @@
 //! entry is the order in space.
 
 use super::build::{Cell, Partition};
+use super::collapse::Plan;
 use crate::math::{Bounds, Ray, Vec3, float};
 use crate::render::geometry::{Hit, Nearest, PrimId};
 use crate::render::shape::triangle::{LANES, ShearedRay, TriangleBlock};
 
 /// Children of a node.
-const WIDTH: usize = 8;
+pub(super) const WIDTH: usize = 8;
 /// Stacks up to this size need no memory from the heap.
 const SMALL_STACK: usize = 96;
 
@@ -53,7 +54,8 @@ impl Wide {
             bounds: partition.bounds,
             stack: 0,
         };
-        let depth = wide.node(&partition.root, triangles, solids);
+        let plan = Plan::new(&partition.root, triangles.len());
+        let depth = wide.node(&plan, triangles, solids);
         wide.stack = depth * (WIDTH - 1) + 1;
         wide
     }
@@ -63,14 +65,14 @@ impl Wide {
         self.bounds
     }
 
-    /// Appends a node for `cell` and all below it; returns how many nodes the longest way down passes.
-    fn node(&mut self, cell: &Cell, triangles: &[[Vec3; 3]], solids: &[u32]) -> usize {
+    /// Appends a node for a cell and all below it; returns how many nodes the longest way down passes.
+    fn node(&mut self, plan: &Plan, triangles: &[[Vec3; 3]], solids: &[u32]) -> usize {
         let index = self.nodes.len();
         self.nodes.push(Node::EMPTY);
         let mut depth = 0;
         let mut lane = 0;
-        for part in open(cell, triangles.len()) {
-            let children = match part {
+        for part in plan.children() {
+            let children = match part.cell {
                 Cell::Inner { .. } => {
                     let first = self.nodes.len() as u32;
                     depth = depth.max(self.node(part, triangles, solids));
@@ -79,7 +81,7 @@ impl Wide {
                 Cell::Leaf { items, .. } => self.leaf(items, triangles, solids),
             };
             for child in children.into_iter().flatten() {
-                self.nodes[index].set(lane, child, part.bounds());
+                self.nodes[index].set(lane, child, part.cell.bounds());
                 lane += 1;
             }
         }
@@ -152,42 +154,6 @@ impl Wide {
             }
             if ANY && nearest.hit.is_some() {
                 return;
-            }
-        }
-    }
-}
-
-/// The parts of a cell that become the children of one node: the largest is opened until there are enough.
-///
-/// A leaf may need two lanes, one for triangles and one for solids, and none if it is empty.
-fn open(cell: &Cell, first_solid: usize) -> Vec<&Cell> {
-    let mut parts = vec![cell];
-    loop {
-        let lanes: usize = parts.iter().map(|part| part.lanes(first_solid)).sum();
-        let mut largest = None;
-        let mut largest_area = f64::NEG_INFINITY;
-        for (i, part) in parts.iter().enumerate() {
-            if let Cell::Inner { children, bounds } = part
-                && bounds.half_area() > largest_area
-                && lanes - 1 + children.iter().map(|child| child.lanes(first_solid)).sum::<usize>() <= WIDTH
-            {
-                largest_area = bounds.half_area();
-                largest = Some((i, children));
-            }
-        }
-        let Some((i, children)) = largest else { return parts };
-        parts.splice(i..=i, children.iter());
-    }
-}
-
-impl Cell {
-    /// How many lanes of a node the cell takes.
-    fn lanes(&self, first_solid: usize) -> usize {
-        match self {
-            Self::Inner { .. } => 1,
-            Self::Leaf { items, .. } => {
-                let triangles = items.partition_point(|&item| (item as usize) < first_solid);
-                usize::from(triangles > 0) + usize::from(triangles < items.len())
             }
         }
     }

@@ -1,5 +1,7 @@
 //! What can be hit.
 
+pub mod revolve;
+pub mod roots;
 pub mod solid;
 pub mod sphere;
 pub mod triangle;

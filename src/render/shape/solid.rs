@@ -1,5 +1,6 @@
 //! A solid in its place: intersected in double precision in its own frame, with `t` preserved.
 
+use super::revolve::Revolve;
 use super::{Solid, SolidKind, sphere};
 use crate::math::{Bounds, DAffine3, DMat3, DVec3, Frame, Ray, Vec2, Vec3, float, warp};
 use crate::render::geometry::{AreaSample, DirectionSample, PrimId, SurfacePoint};
@@ -16,6 +17,8 @@ pub struct PlacedSolid {
     normal_from_object: DMat3,
     /// How areas grow when the transform scales all lengths alike: |det|.
     determinant: f64,
+    /// What a surface of revolution needs.
+    revolve: Option<Revolve>,
     area: f64,
 }
 
@@ -36,6 +39,10 @@ impl PlacedSolid {
             object_from_world,
             normal_from_object: object_from_world.matrix3.transpose(),
             determinant: solid.world_from_object.matrix3.determinant().abs(),
+            revolve: match &solid.kind {
+                SolidKind::Revolve(profile) => Some(Revolve::new(profile)),
+                _ => None,
+            },
             area: 0.0,
             solid,
         };
@@ -66,7 +73,10 @@ impl PlacedSolid {
                 let p = o + d * t;
                 if p.x * p.x + p.y * p.y <= 1.0 { within(t).map(plain) } else { None }
             }
-            SolidKind::Revolve(_) => None,
+            SolidKind::Revolve(_) => {
+                let (t, uv) = self.revolve().intersect(o, d, within)?;
+                Some(SolidHit { t, uv })
+            }
         }
     }
 
@@ -91,7 +101,10 @@ impl PlacedSolid {
                 let p = flat(at(-o.z / d.z));
                 (p, DVec3::Z, DVec3::X, p.truncate().as_vec2())
             }
-            SolidKind::Revolve(_) => (at(t), DVec3::Y, DVec3::X, hit.uv),
+            SolidKind::Revolve(_) => {
+                let (p, n, uv) = self.revolve().surface(hit.uv, at(t));
+                (p, n, sphere::tangent(p), uv)
+            }
         };
         let (p_world, p_error) = self.to_world(p);
         let n = self.normal_to_world(n);
@@ -218,6 +231,10 @@ impl PlacedSolid {
         Some(Bounds::enclosing(low - slack, high + slack))
     }
 
+    fn revolve(&self) -> &Revolve {
+        self.revolve.as_ref().expect("`new` prepares each surface of revolution")
+    }
+
     /// The ray in the object's frame; its direction keeps its scale, so `t` means the same in both.
     fn ray_object(&self, ray: &Ray) -> (DVec3, DVec3) {
         let o = self.object_from_world.transform_point3(ray.o.as_dvec3());
@@ -230,9 +247,11 @@ impl PlacedSolid {
     fn to_world(&self, p: DVec3) -> (Vec3, Vec3) {
         let m = &self.solid.world_from_object;
         let exact = m.transform_point3(p);
-        let terms = m.matrix3.x_axis.abs() * p.x.abs()
-            + m.matrix3.y_axis.abs() * p.y.abs()
-            + m.matrix3.z_axis.abs() * p.z.abs()
+        // Roots along a profile are known in proportion to the whole of it.
+        let extent = p.abs().max(DVec3::splat(self.revolve.as_ref().map_or(0.0, Revolve::size)));
+        let terms = m.matrix3.x_axis.abs() * extent.x
+            + m.matrix3.y_axis.abs() * extent.y
+            + m.matrix3.z_axis.abs() * extent.z
             + m.translation.abs();
         let error = exact.abs() * f64::from(float::gamma(2)) + terms * FRAME_ERROR;
         (exact.as_vec3(), error.as_vec3())
@@ -256,7 +275,9 @@ impl PlacedSolid {
                 Some(radius) => 4.0 * PI * radius * radius,
                 None => self.integrate_sphere(),
             },
-            SolidKind::Revolve(_) => 0.0,
+            SolidKind::Revolve(_) => {
+                self.revolve().elements().map(|(n, area)| area * self.area_scale(n)).sum()
+            }
         }
     }
 

@@ -86,14 +86,18 @@ impl TriangleBlock {
     #[inline(always)]
     pub fn intersect(&self, ray: &ShearedRay, mut found: impl FnMut(u32, TriangleHit)) {
         let mut edges = self.edges(ray);
-        let inside: [bool; LANES] = std::array::from_fn(|i| {
+        let mut inside = 0_u32;
+        for i in 0..LANES {
             let (u, v, w) = (edges.u[i], edges.v[i], edges.w[i]);
-            (u >= 0.0) & (v >= 0.0) & (w >= 0.0) | (u <= 0.0) & (v <= 0.0) & (w <= 0.0)
-        });
-        if inside == [false; LANES] {
-            return;
+            let low = if u < v { u } else { v };
+            let high = if u > v { u } else { v };
+            let low = if low < w { low } else { w };
+            let high = if high > w { high } else { w };
+            inside |= u32::from((low >= 0.0) | (high <= 0.0)) << i;
         }
-        for (i, _) in inside.iter().enumerate().filter(|(_, inside)| **inside) {
+        while inside != 0 {
+            let i = inside.trailing_zeros() as usize;
+            inside &= inside - 1;
             if let Some(hit) = self.finish(ray, &mut edges, i) {
                 found(self.prims[i], hit);
             }
@@ -103,7 +107,7 @@ impl TriangleBlock {
     /// The edge functions of all lanes, in single precision.
     #[inline(always)]
     fn edges(&self, ray: &ShearedRay) -> Edges {
-        let [a, b, c] = [0, 1, 2].map(|vertex| self.sheared(ray, vertex));
+        let (a, b, c) = (self.sheared(ray, 0), self.sheared(ray, 1), self.sheared(ray, 2));
         let mut edges =
             Edges { u: [0.0; LANES], v: [0.0; LANES], w: [0.0; LANES], depth: [a[2], b[2], c[2]] };
         for i in 0..LANES {
@@ -117,7 +121,8 @@ impl TriangleBlock {
     /// One vertex of all lanes relative to the ray: sheared x and y, and the depth before scaling.
     #[inline(always)]
     fn sheared(&self, ray: &ShearedRay, vertex: usize) -> [Lanes; 3] {
-        let [x, y, z] = ray.axes.map(|axis| &self.vertices[vertex][axis]);
+        let vertex = &self.vertices[vertex];
+        let (x, y, z) = (&vertex[ray.axes[0]], &vertex[ray.axes[1]], &vertex[ray.axes[2]]);
         let mut out = [[0.0; LANES]; 3];
         for i in 0..LANES {
             let depth = z[i] - ray.o[2];
