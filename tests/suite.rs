@@ -1,4 +1,6 @@
 //! All integration tests, in one binary: linking several costs more than running them.
 
+mod laws;
 mod laws_geometry;
 mod layers;
+mod robust;
