@@ -53,7 +53,8 @@ fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
 }
 
 fn solid(kind: SolidKind, world_from_object: DAffine3) -> Solid {
-    Solid { kind, world_from_object, material: MaterialId(0), source: SourceId(0) }
+    let texture_from_object = DAffine3::IDENTITY;
+    Solid { kind, world_from_object, texture_from_object, material: MaterialId(0), source: SourceId(0) }
 }
 
 fn scene(mesh: Mesh) -> Geometry {
