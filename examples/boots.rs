@@ -74,7 +74,7 @@ fn laces(p: Vec3) -> f32 {
     let bar = |i: usize| {
         let t = i as f32 / 4.0;
         let middle = Vec3::new(-0.145 + 0.225 * t, 0.0, 0.0);
-        let slant = if i % 2 == 0 { 0.22 } else { -0.22 };
+        let slant = if i.is_multiple_of(2) { 0.22 } else { -0.22 };
         let across = p.x + 0.12 * (p.y - 0.3) - middle.x - slant * p.z;
         let bar = across.hypot(skin) - 0.0135;
         bar.max(p.z.abs() - 0.075 + 0.01 * t).max(0.2 - p.y)

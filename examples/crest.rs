@@ -61,7 +61,7 @@ impl Drawing {
         let shield = half.iter().copied().chain(mirrored).collect();
 
         let tip = |i: usize| {
-            let radius = if i % 2 == 0 { 0.15 } else { 0.062 };
+            let radius = if i.is_multiple_of(2) { 0.15 } else { 0.062 };
             STAR + Vec2::from_angle((0.25 + 0.1 * i as f32) * TAU) * radius
         };
         Self { shield, star: (0..10).map(tip).collect() }

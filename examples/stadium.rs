@@ -80,7 +80,7 @@ fn bowl(s: f32) -> f32 {
 
 /// Height of the underside of the roof, or nothing in front of it.
 fn roof(s: f32) -> Option<f32> {
-    (ROOF_FRONT..UPPER_TIER.1 + 1.0).contains(&s).then(|| ROOF_HEIGHT + (s - ROOF_FRONT) * 0.2)
+    (ROOF_FRONT..UPPER_TIER.1 + 1.0).contains(&s).then_some(ROOF_HEIGHT + (s - ROOF_FRONT) * 0.2)
 }
 
 /// The colour that comes through a point of the window.
@@ -179,13 +179,13 @@ fn bowl_color(p: Vec3, s: f32, beyond: f32) -> Vec3 {
         return boards(run, p.y);
     }
     if (LOWER_TIER.0..LOWER_TIER.1 - 0.05).contains(&s) {
-        return seats(run, s - LOWER_TIER.0, 0.66, 1);
+        return seats(run, s - LOWER_TIER.0, 0.52, 1);
     }
     if p.y < 15.6 {
         return boxes(run, p.y - 12.0);
     }
     if s < UPPER_TIER.1 - 0.05 {
-        let shade = 0.62 - 0.4 * smoothstep(UPPER_TIER.0, UPPER_TIER.1, s);
+        let shade = 0.5 - 0.32 * smoothstep(UPPER_TIER.0, UPPER_TIER.1, s);
         return seats(run, s - UPPER_TIER.0, shade, 2);
     }
     srgb(0x3a2a2c) * 0.4

@@ -91,6 +91,7 @@ impl<T> std::ops::Deref for Spanned<T> {
 pub struct FileId(pub u32);
 
 /// A text that was read, with what is needed to find a line in it.
+#[derive(Clone)]
 pub struct SourceFile {
     /// The name shown to people, as they would type it.
     pub name: String,
@@ -102,7 +103,7 @@ pub struct SourceFile {
     pub base: u32,
     /// The place that names this file, `None` for the main one.
     pub included_from: Option<Span>,
-    line_starts: Vec<u32>,
+    line_starts: Arc<[u32]>,
 }
 
 impl SourceFile {
@@ -147,7 +148,7 @@ impl fmt::Display for Location {
 }
 
 /// Every text of a run, in the order in which they were read.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct SourceMap {
     files: Vec<SourceFile>,
 }

@@ -121,8 +121,8 @@ fn write(args: &ConvertArgs, text: &str, conversion: &Conversion) -> Result<(), 
     } else if !args.messages.quiet && conversion.snell.is_some() {
         let to = args.output.as_deref().unwrap_or(Path::new("standard output")).display();
         let detection = &conversion.detection;
-        note(format_args!("{} → {to}: dialect {}, because {}\n", args.input.display(), detection.dialect, detection.reason));
-        note(format_args!("  {}", report::summary(&conversion.report)));
+        note(format_args!("{} → {to}: dialect {}, because {}\n", args.input.display(), detection.dialect.id(), detection.reason));
+        note(format_args!("  {}\n", report::summary(&conversion.report)));
     }
     Ok(())
 }
@@ -138,16 +138,16 @@ fn as_json(text: &str, conversion: &Conversion) -> serde_json::Value {
                 "text": &text[fate.span.clone()], "fate": outcome, "detail": detail })
     });
     json!({
-        "dialect": conversion.detection.dialect.to_string(),
+        "dialect": conversion.detection.dialect.id(),
         "reason": conversion.detection.reason,
         "tokens": fates.collect::<Vec<_>>(),
     })
 }
 
 fn dialect(text: &str) -> Result<Dialect, String> {
-    let known = Dialect::ALL.iter().find(|dialect| dialect.to_string().eq_ignore_ascii_case(text));
+    let known = Dialect::ALL.iter().find(|dialect| dialect.id().eq_ignore_ascii_case(text));
     known.copied().ok_or_else(|| {
-        let names: Vec<String> = Dialect::ALL.iter().map(ToString::to_string).collect();
+        let names: Vec<&str> = Dialect::ALL.iter().map(|dialect| dialect.id()).collect();
         format!("the dialects are {}", names.join(", "))
     })
 }

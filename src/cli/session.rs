@@ -75,10 +75,10 @@ pub fn show(problems: Problems, sources: &SourceMap, args: &MessageArgs, as_resu
         return;
     }
     match args.message_format {
-        MessageFormat::Human => note(report.human(&style(args.color))),
-        MessageFormat::Short => note(report.short()),
-        MessageFormat::Json if as_result => print(report.json()),
-        MessageFormat::Json => note(report.json()),
+        MessageFormat::Human => note(report.render_human(&style(args.color))),
+        MessageFormat::Short => note(report.render_short()),
+        MessageFormat::Json if as_result => print(report.render_json()),
+        MessageFormat::Json => note(report.render_json()),
     }
 }
 
@@ -130,8 +130,8 @@ fn style(color: Color) -> Style {
 
 /// The terminal's width, between 60 and 120 columns.
 fn terminal_width() -> usize {
-    let columns = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
-    columns.unwrap_or(usize::from(indicatif::TermSize::columns())).clamp(60, 120)
+    let columns = terminal_size::terminal_size_of(std::io::stderr()).map(|(width, _)| usize::from(width.0));
+    columns.unwrap_or(100).clamp(60, 120)
 }
 
 /// Whether the locale is one of UTF-8; where nothing is said, plain characters are safe.

@@ -87,11 +87,6 @@ impl Dialect {
         }
     }
 
-    /// Whether materials of this dialect are converted by its own rules.
-    pub fn is_read(self) -> bool {
-        matches!(self, Self::Arsenal | Self::Pa1 | Self::Weights | Self::Enum)
-    }
-
     /// Whether it is one of MIT's own rather than a descendant from Tsinghua.
     pub fn is_mit(self) -> bool {
         matches!(self, Self::Mit2003 | Self::Mit2004 | Self::Mit2010 | Self::Mit2016)
@@ -167,8 +162,6 @@ const FACTORS: &[&str] = &[
     "w_diffusion",
     "w_reflection",
     "w_transmission",
-    "diffuse",
-    "specular",
     "refract",
     "diffuseRate",
     "specularRate",

@@ -47,13 +47,30 @@ pub struct Background {
     pub notes: Vec<String>,
 }
 
-/// A light without a body.
+/// A light of the `Lights` block.
 #[derive(Debug)]
 pub enum Light {
     /// `color` is what the original adds at every distance.
-    Point { position: DVec3, color: DVec3 },
+    Point {
+        position: DVec3,
+        color: DVec3,
+    },
+    Sphere {
+        center: DVec3,
+        radius: f64,
+        radiance: DVec3,
+    },
+    Rect {
+        origin: DVec3,
+        edge_u: DVec3,
+        edge_v: DVec3,
+        radiance: DVec3,
+    },
     /// `direction` is the way the light travels.
-    Directional { direction: DVec3, color: DVec3 },
+    Directional {
+        direction: DVec3,
+        color: DVec3,
+    },
 }
 
 /// A material and what is to be said about it.
@@ -77,7 +94,12 @@ pub enum Look {
         shininess: f64,
     },
     Mirror {
+        color: Texture,
+    },
+    /// GGX with alpha = roughness squared.
+    Metal {
         color: DVec3,
+        roughness: f64,
     },
     Glass {
         ior: f64,
@@ -133,8 +155,16 @@ pub struct Object {
 }
 
 impl Object {
+    /// The picture on a plane, if it has one.
+    pub fn picture(&self) -> Option<&PlanePicture> {
+        match &self.shape {
+            Shape::Plane { picture, .. } => picture.as_ref(),
+            _ => None,
+        }
+    }
+
     /// Calls `visit` for every object that is no group, also inside groups. Nesting is bounded by the parser.
-    pub fn each(objects: &[Self], visit: &mut dyn FnMut(&Self)) {
+    pub fn each<'o>(objects: &'o [Self], visit: &mut dyn FnMut(&'o Self)) {
         for object in objects {
             match &object.shape {
                 Shape::Group(inner) => Self::each(inner, visit),
@@ -159,6 +189,21 @@ pub enum Shape {
     },
     Triangle {
         corners: [DVec3; 3],
+    },
+    /// A parallelogram.
+    Quad {
+        origin: DVec3,
+        edge_u: DVec3,
+        edge_v: DVec3,
+    },
+    Disk {
+        center: DVec3,
+        normal: DVec3,
+        radius: f64,
+    },
+    Cuboid {
+        min: DVec3,
+        max: DVec3,
     },
     Mesh {
         file: Asset,

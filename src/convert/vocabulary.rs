@@ -42,6 +42,13 @@ pub const CAMERA: Vocabulary = &[
     ("distance", Numbers(1)),
     ("dist", Numbers(1)),
     ("radius", Numbers(1)),
+    ("focus", Numbers(1)),
+    ("focusDist", Numbers(1)),
+    ("focusDistance", Numbers(1)),
+    ("focus_distance", Numbers(1)),
+    ("lens_radius", Numbers(1)),
+    ("defocusAngle", Numbers(1)),
+    ("field", Numbers(1)),
 ];
 
 /// `Background`.
@@ -57,6 +64,12 @@ pub const LIGHT: Vocabulary = &[
     ("color", Numbers(3)),
     ("attenuation", Numbers(3)),
     ("falloff", Numbers(1)),
+    ("radius", Numbers(1)),
+    ("emission", Numbers(1)),
+    ("x_axis", Numbers(3)),
+    ("y_axis", Numbers(3)),
+    ("dirX", Numbers(3)),
+    ("dirY", Numbers(3)),
 ];
 
 /// `Materials`.
@@ -80,6 +93,50 @@ pub const MATERIAL: Vocabulary = &[
     ("reflectRate", Numbers(1)),
     ("texture_file", Path),
     ("bump", Path),
+    ("mColor", Numbers(3)),
+    ("diff", Numbers(1)),
+    ("refl", Numbers(1)),
+    ("diff_factor", Numbers(1)),
+    ("spec_factor", Numbers(1)),
+    ("refr_factor", Numbers(1)),
+    ("n", Numbers(1)),
+    ("w_diffusion", Numbers(1)),
+    ("w_reflection", Numbers(1)),
+    ("w_transmission", Numbers(1)),
+    ("ref_index", Numbers(1)),
+    ("diffuseRate", Numbers(1)),
+    ("specularRate", Numbers(1)),
+    ("refractRate", Numbers(1)),
+    ("refractIndex", Numbers(1)),
+    ("perDiffuse", Numbers(1)),
+    ("perReflect", Numbers(1)),
+    ("perRefract", Numbers(1)),
+    ("diffidx", Numbers(1)),
+    ("reflidx", Numbers(1)),
+    ("refridx", Numbers(1)),
+    ("refrN", Numbers(1)),
+];
+
+/// Materials whose block name is their kind.
+pub const TYPED_MATERIAL: Vocabulary = &[
+    ("color", Numbers(3)),
+    ("diffuseColor", Numbers(3)),
+    ("specularColor", Numbers(3)),
+    ("emissionColor", Numbers(3)),
+    ("lightColor", Numbers(3)),
+    ("attenuation", Numbers(3)),
+    ("attenuationColor", Numbers(3)),
+    ("transmittance", Numbers(3)),
+    ("transmissiveColor", Numbers(3)),
+    ("refractionIndex", Numbers(1)),
+    ("refractiveIndex", Numbers(1)),
+    ("refractive_index", Numbers(1)),
+    ("refractive", Numbers(1)),
+    ("index", Numbers(1)),
+    ("n", Numbers(1)),
+    ("fuzz", Numbers(1)),
+    ("fuzziness", Numbers(1)),
+    ("texture", Free),
 ];
 
 /// `Group`.
@@ -102,6 +159,25 @@ pub const PLANE: Vocabulary = &[
 
 /// `Triangle`.
 pub const TRIANGLE: Vocabulary = &[("vertex0", Numbers(3)), ("vertex1", Numbers(3)), ("vertex2", Numbers(3))];
+
+/// `Rectangle` and `Quad`, by a point and two vectors with different names.
+pub const QUAD: Vocabulary = &[
+    ("origin", Numbers(3)),
+    ("u", Numbers(3)),
+    ("v", Numbers(3)),
+    ("point", Numbers(3)),
+    ("x", Numbers(3)),
+    ("y", Numbers(3)),
+    ("position", Numbers(3)),
+    ("x_axis", Numbers(3)),
+    ("y_axis", Numbers(3)),
+];
+
+/// `Disk`.
+pub const DISK: Vocabulary = &[("center", Numbers(3)), ("normal", Numbers(3)), ("radius", Numbers(1))];
+
+/// `Cube`.
+pub const CUBE: Vocabulary = &[("min_p", Numbers(3)), ("max_p", Numbers(3))];
 
 /// `TriangleMesh`.
 pub const MESH: Vocabulary =

@@ -71,14 +71,16 @@ pub fn load<'a>(
         problems,
         loaded: Loaded { scene, meshes: FxHashMap::default(), pictures: FxHashMap::default() },
         models: FxHashMap::default(),
-        seen: FxHashSet::default(),
+        seen_shapes: FxHashSet::default(),
+        seen_materials: FxHashSet::default(),
+        seen_models: FxHashSet::default(),
         failed: false,
     };
     for object in &scene.objects {
         loader.shape(object.shape);
-        let material = object.material.or(scene.shapes[object.shape].material);
-        if let Some(material) = material {
-            loader.material(material);
+        match object.material.or(scene.shapes[object.shape].material) {
+            Some(material) => loader.material(material),
+            None => loader.own_materials(object.shape),
         }
     }
     if let Some(environment) = &scene.environment
@@ -96,8 +98,10 @@ struct Loader<'a, 'b> {
     loaded: Loaded<'a>,
     /// Meshes by path, so that a file named twice is read once; `None` for one that was reported.
     models: FxHashMap<PathBuf, Option<Arc<LoadedMesh>>>,
-    /// Materials whose textures are known: many objects and mixes share one.
-    seen: FxHashSet<usize>,
+    /// Shapes, materials, and meshes rendered in their own materials: many objects share one.
+    seen_shapes: FxHashSet<usize>,
+    seen_materials: FxHashSet<usize>,
+    seen_models: FxHashSet<usize>,
     failed: bool,
 }
 
@@ -105,7 +109,7 @@ impl Loader<'_, '_> {
     fn shape(&mut self, handle: Handle<crate::ir::Shape>) {
         let scene = self.loaded.scene;
         let ShapeKind::Mesh { file, skip_missing, .. } = &scene.shapes[handle].kind else { return };
-        if self.loaded.meshes.contains_key(&handle.index()) {
+        if !self.seen_shapes.insert(handle.index()) {
             return;
         }
         let what = Wanted {
@@ -176,9 +180,20 @@ impl Loader<'_, '_> {
             let note = "some faces have no normals, so all of that group's are ignored".to_owned();
             self.note(what, note, "give every face corner a `vn` index, or write `smooth: true`");
         }
-        for file in &notes.missing_mtl {
+    }
+
+    /// A mesh whose object says nothing of a material: now its own ones matter.
+    fn own_materials(&mut self, handle: Handle<crate::ir::Shape>) {
+        let scene = self.loaded.scene;
+        let ShapeKind::Mesh { file, skip_missing, .. } = &scene.shapes[handle].kind else { return };
+        let Some(mesh) = self.loaded.meshes.get(&handle.index()).cloned() else { return };
+        if !self.seen_models.insert(handle.index()) {
+            return;
+        }
+        let what = Wanted { name: &file.value, span: file.span, skip: *skip_missing, left_out: "" };
+        for file in &mesh.model.notes.missing_mtl {
             let note = format!("its material file `{file}` cannot be read, so its materials are grey");
-            self.note(what, note, "put it beside the mesh, or give the object a `material`");
+            self.note(&what, note, "put it beside the mesh, or give the object a `material`");
         }
     }
 
@@ -187,7 +202,7 @@ impl Loader<'_, '_> {
     }
 
     fn material(&mut self, handle: Handle<Material>) {
-        if !self.seen.insert(handle.index()) {
+        if !self.seen_materials.insert(handle.index()) {
             return;
         }
         match &self.loaded.scene.materials[handle].kind {

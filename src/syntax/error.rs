@@ -408,7 +408,8 @@ pub enum SyntaxError {
 
 impl SyntaxError {
     /// The place of the mistake.
-    pub(super) fn at(&self) -> Option<usize> {
-        Some(self.labels()?.next()?.offset())
+    pub(super) fn at(&self) -> u32 {
+        let label = self.labels().and_then(|mut labels| labels.next());
+        label.map_or(0, |label| label.offset() as u32)
     }
 }

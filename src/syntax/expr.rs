@@ -122,6 +122,10 @@ impl Lower<'_> {
             let right = self.climb(parts, strength + u8::from(op != BinaryOp::Power));
             let op = Spanned::new(op, self.text.span_of(&sign));
             let span = left.span.to(right.span);
+            if left.kind == ExprKind::Poison {
+                left.span = span;
+                continue;
+            }
             left = Expr { kind: ExprKind::Binary { op, left: Box::new(left), right: Box::new(right) }, span };
         }
         left
@@ -182,7 +186,7 @@ impl Lower<'_> {
     /// `chain = ${ (name ~ (sp+ ~ (list | string))? | list | tuple) ~ (member | call | index)* }`
     fn chain(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let span = self.text.span_of(&pair);
-        let links = pair.clone().into_inner().len();
+        let links = pair.clone().into_inner().len() - 1;
         self.nested(links, span, |lower| {
             let mut parts = Parts::of(pair);
             let mut base = lower.chain_head(&mut parts, span);

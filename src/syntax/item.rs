@@ -134,7 +134,7 @@ impl Lower<'_> {
         if sign.as_rule() == Rule::wrong_colon {
             let at = self.text.span_of(&sign);
             self.note(SyntaxError::WrongSign { written: ":".to_owned(), wanted: "=", hint, at });
-        } else {
+        } else if !self.strange_character_at(sign.as_span().start()) {
             self.missing_sign("=", &format!("after `{}`", name.value), &hint, &sign);
         }
     }

@@ -112,9 +112,10 @@ impl Lower<'_> {
         self.note(SyntaxError::UnknownCharacter { shown, hint, at: self.text.first_char(offset) });
     }
 
-    /// Reports a letter of another alphabet where a name belongs.
-    pub(super) fn foreign_letter_at(&mut self, offset: usize) -> bool {
-        let found = self.text.text[offset..].starts_with(|c: char| !c.is_ascii() && c.is_alphabetic());
+    /// Reports a character that begins nothing where a name or sign belongs.
+    pub(super) fn strange_character_at(&mut self, offset: usize) -> bool {
+        let is_strange = |c: char| c != '\n' && c.is_control() || !c.is_ascii() && !"“”„«‘’".contains(c);
+        let found = self.text.text[offset..].starts_with(is_strange);
         if found {
             self.unknown_at(offset);
         }

@@ -9,6 +9,7 @@ use super::repair::repair;
 use crate::diag::Problems;
 use crate::source::{FileId, Files, Missing, SourceMap, Span};
 use pest::Parser;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -204,7 +205,7 @@ impl Lower<'_> {
     }
 
     /// The mistakes of the whole text: those of its brackets and quotes, and those that do not follow from them.
-    pub(super) fn finish(mut self, mut errors: Vec<SyntaxError>, guesses: &[usize]) -> Vec<SyntaxError> {
+    pub(super) fn finish(mut self, mut errors: Vec<SyntaxError>, guesses: &[Range<u32>]) -> Vec<SyntaxError> {
         if let [first, rest @ ..] = self.semicolons.as_slice() {
             let others = match rest.len() {
                 0 => String::new(),
@@ -214,8 +215,11 @@ impl Lower<'_> {
             let at = *first;
             self.note(SyntaxError::Semicolon { others, at });
         }
-        let follows =
-            |error: &SyntaxError| guesses.iter().any(|&guess| self.text.shares_line(error.at(), guess));
+        // At most one open quote stands on a line, so the lines are in order and apart.
+        let follows = |error: &SyntaxError| {
+            let line = guesses.partition_point(|line| line.end < error.at());
+            guesses.get(line).is_some_and(|line| line.start <= error.at())
+        };
         errors.extend(self.errors.iter().filter(|error| !follows(error)).cloned());
         errors
     }

@@ -79,7 +79,7 @@ impl<'a> Lower<'a> {
         let pair = parts.next()?;
         if pair.as_rule() == Rule::missing_name {
             let offset = pair.as_span().start();
-            if !self.foreign_letter_at(offset) {
+            if !self.strange_character_at(offset) {
                 let at = self.text.after_token(offset);
                 self.note(SyntaxError::MissingName { what, example, at });
             }

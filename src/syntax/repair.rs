@@ -6,6 +6,7 @@ use super::lower::MAX_DEPTH;
 use super::scan::{Scan, scan};
 use super::text::Text;
 use crate::source::Span;
+use std::ops::Range;
 
 /// A text made readable, and what was wrong with it.
 pub(super) struct Repaired {
@@ -15,8 +16,8 @@ pub(super) struct Repaired {
     pub inserted: Vec<usize>,
     /// What was wrong.
     pub errors: Vec<SyntaxError>,
-    /// Where lines were mended by guessing: what the grammar finds there follows from the mistake.
-    pub guesses: Vec<usize>,
+    /// The lines that were mended by guessing: what the grammar finds there follows from the mistake.
+    pub guesses: Vec<Range<u32>>,
 }
 
 /// Makes a text readable; `base` is its offset among the sources. `Err` when it is nested too deeply to be read at all.
@@ -34,7 +35,12 @@ pub(super) fn repair(text: &str, base: u32) -> Result<Repaired, SyntaxError> {
         Some(start) => errors.push(SyntaxError::UnclosedComment { at: span(start, start + 2) }),
         None => errors.extend(repairs.iter().map(|repair| repair.report(text, span))),
     }
-    let guesses = scan.open_quotes.iter().map(|quote| quote.open).collect();
+    let line_around = |offset: usize| {
+        let start = text[..offset].rfind('\n').map_or(0, |end| end + 1);
+        let end = text[offset..].find('\n').map_or(text.len(), |length| offset + length);
+        base + start as u32..base + end as u32
+    };
+    let guesses = scan.open_quotes.iter().map(|quote| line_around(quote.open)).collect();
     let (text, inserted) = apply(scan, &repairs);
     Ok(Repaired { text, inserted, errors, guesses })
 }

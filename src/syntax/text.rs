@@ -57,13 +57,6 @@ impl Text<'_> {
         self.span(start, start + line.len())
     }
 
-    /// Whether a place among the sources lies on the line of an offset into what was written.
-    pub(super) fn shares_line(&self, place: Option<usize>, offset: usize) -> bool {
-        let Some(place) = place.and_then(|place| place.checked_sub(self.base as usize)) else { return false };
-        let between = self.original.as_bytes().get(place.min(offset)..place.max(offset));
-        between.is_some_and(|between| !between.contains(&b'\n'))
-    }
-
     /// The place of the character at `offset`.
     pub(super) fn first_char(&self, offset: usize) -> Span {
         let len = self.text[offset..].chars().next().map_or(0, char::len_utf8);

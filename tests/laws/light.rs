@@ -2,8 +2,9 @@
 
 use super::statistics::points;
 use super::worlds::{camera, cornell, diffuse, emissive, empty, mean, quad, sphere, trace};
-use snell::math::{Rgb, Vec2, Vec3};
+use snell::math::{DAffine3, DMat3, DVec3, Rgb, Vec2, Vec3};
 use snell::render::light::{Environment, EnvironmentRadiance, Light, Sky};
+use snell::render::shape::{MaterialId, Solid, SolidKind, SourceId};
 use snell::render::texture::Image;
 use snell::render::{Parts, World};
 use std::f64::consts::PI;
@@ -61,6 +62,20 @@ fn irradiance_from_a_rectangle_above() {
         let half = |a: f64, b: f64| a / (1.0 + a * a).sqrt() * (b / (1.0 + a * a).sqrt()).atan();
         assert_close(irradiance(parts), 4.0 * 0.5 * (half(a, b) + half(b, a)), 3e-3);
     }
+}
+
+#[test]
+fn a_lamp_without_end_is_found_by_chance() {
+    let mut parts = floor();
+    // The plane z = 0 turned over, and lifted above the camera: it shines downwards.
+    let downwards = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
+    parts.solids = vec![Solid {
+        kind: SolidKind::Plane,
+        world_from_object: DAffine3::from_mat3_translation(downwards, DVec3::Y),
+        material: MaterialId(1),
+        source: SourceId::default(),
+    }];
+    assert_close(irradiance(parts), PI, 1e-6);
 }
 
 #[test]

@@ -21,22 +21,80 @@ pub const NAMES: &[&str] = &[
 /// How far the length of `direction x up` may be from 1 before it counts as leaning: what single precision leaves of 1.
 const LEAN_TOLERANCE: f64 = 1e-6;
 
-/// Pairs of keys that mean a focus distance and a lens, with how the lens's radius follows from the second.
-const LENSES: &[(&str, &str, f64, &str)] = &[
-    // A square of half side a blurs like a disc of radius 2a / sqrt(pi).
-    (
-        "focalLength",
-        "aperture",
-        std::f64::consts::FRAC_2_SQRT_PI,
-        "a round lens of the area of the original's square one",
-    ),
-    (
-        "focal_length",
-        "aperture_size",
-        0.5 * std::f64::consts::FRAC_2_SQRT_PI,
-        "a round lens for the original's cube of this side",
-    ),
-    ("distance", "radius", 1.0, "a round lens, evenly open; the original's is denser at the centre"),
+/// A pair of keys that means a focus distance and the opening of a lens.
+struct LensRule {
+    focus: &'static str,
+    opening: &'static str,
+    /// The radius of a round lens that blurs as much, from opening and focus distance.
+    radius: fn(f64, f64) -> f64,
+    note: &'static str,
+}
+
+/// A square of half side a blurs like a disc of its area, of radius 2a / sqrt(pi).
+const DISC_OF_SQUARE: f64 = std::f64::consts::FRAC_2_SQRT_PI;
+
+/// What the programs of the family mean by their pairs of keys. None of the distances is a focal length.
+const LENSES: &[LensRule] = &[
+    LensRule {
+        focus: "focalLength",
+        opening: "aperture",
+        radius: |half_side, _| DISC_OF_SQUARE * half_side,
+        note: "a round lens of the area of the original's square one",
+    },
+    LensRule {
+        focus: "focus",
+        opening: "aperture",
+        radius: |half_side, _| DISC_OF_SQUARE * half_side,
+        note: "a round lens of the area of the original's square one, if it is one; programs differ",
+    },
+    LensRule {
+        focus: "focal_length",
+        opening: "aperture_size",
+        radius: |side, _| 0.5 * DISC_OF_SQUARE * side,
+        note: "a round lens for the original's cube of this side",
+    },
+    LensRule {
+        focus: "focusDistance",
+        opening: "aperture",
+        radius: |diameter, _| 0.5 * diameter,
+        note: "a round lens of this diameter, as in the original",
+    },
+    LensRule {
+        focus: "focusDist",
+        opening: "defocusAngle",
+        radius: |degrees, focus| focus * tan64((degrees / 2.0).to_radians()),
+        note: "a round lens; the original measures the distance along each ray",
+    },
+    LensRule {
+        focus: "focus_distance",
+        opening: "lens_radius",
+        radius: |radius, _| radius,
+        note: "a round lens, evenly open; the original's is a projected ball",
+    },
+    LensRule {
+        focus: "focal",
+        opening: "aperture",
+        radius: |radius, _| radius,
+        note: "a round lens of this radius; programs differ",
+    },
+    LensRule {
+        focus: "distance",
+        opening: "radius",
+        radius: |radius, _| radius,
+        note: "a round lens, evenly open; the original's is denser at the centre",
+    },
+    LensRule {
+        focus: "dist",
+        opening: "radius",
+        radius: |radius, _| radius,
+        note: "a round lens, evenly open; the original's is denser at the centre",
+    },
+    LensRule {
+        focus: "focus",
+        opening: "field",
+        radius: |radius, _| radius,
+        note: "a round lens, evenly open; the original's is a ball",
+    },
 ];
 
 impl Reader<'_> {
@@ -132,12 +190,10 @@ impl Reader<'_> {
 
     /// Depth of field, for the pairs of keys whose meaning is known.
     fn lens(&mut self, camera: &str, head: &Span, fields: &mut Fields<'_>) -> Option<Lens> {
-        if let Some(focal) = self.log.take(fields, "focal") {
-            if self.dialect == Dialect::Arsenal {
-                self.log.ignored(&focal.span, "the original reads it and builds the camera without it");
-            } else {
-                self.log.unknown_field(&focal, camera, vocab::CAMERA);
-            }
+        if self.dialect == Dialect::Arsenal
+            && let Some(focal) = self.log.take(fields, "focal")
+        {
+            self.log.ignored(&focal.span, "the original reads it and builds the camera without it");
         }
         match camera {
             "PerspectiveCamera" | "DofCamera" => {}
@@ -158,21 +214,22 @@ impl Reader<'_> {
                 return None;
             }
         }
-        let (focus_key, lens_key, factor, note) =
-            *LENSES.iter().find(|(focus, lens, ..)| fields.has(focus) && fields.has(lens))?;
-        let focus = self.log.take(fields, focus_key)?;
-        let radius = self.log.take(fields, lens_key)?;
+        let rule = LENSES.iter().find(|rule| fields.has(rule.focus) && fields.has(rule.opening))?;
+        let focus = self.log.take(fields, rule.focus)?;
+        let opening = self.log.take(fields, rule.opening)?;
         self.log.approximated(&focus.span, "the distance in focus, along the view axis");
-        self.log.approximated(&radius.span, note);
-        let lens = Lens { radius: factor * radius.number(0), focus: focus.number(0), note: note.into() };
-        if lens.focus <= 0.0 {
+        self.log.approximated(&opening.span, rule.note);
+        let (distance, size) = (focus.number(0), opening.number(0));
+        if distance <= 0.0 {
             self.bad_value(
                 "the lens is focused behind the camera",
                 &focus.span,
                 "write a distance greater than 0",
             );
+            return None;
         }
-        (lens.radius > 0.0 && lens.focus > 0.0).then_some(lens)
+        let radius = (rule.radius)(size, distance);
+        (radius > 0.0).then(|| Lens { radius, focus: distance, note: rule.note.into() })
     }
 
     /// Resolves an `up` that is not perpendicular to the view.

@@ -39,8 +39,11 @@ impl Reader<'_> {
         match block.name() {
             "PointLight" => self.point_light(block),
             "DirectionalLight" => self.directional_light(block),
-            "AreaLight" | "CircleLight" | "SpotLight" | "RoundDisk_Light" | "SphereLight" | "DiskLight"
-            | "RecLight" | "RectLight" => {
+            "SphereLight" => self.sphere_light(block),
+            "AreaLight" if block.after("x_axis").is_some() => self.area_light(block, ["x_axis", "y_axis"]),
+            "AreaLight" if block.after("dirX").is_some() => self.area_light(block, ["dirX", "dirY"]),
+            "AreaLight" | "CircleLight" | "SpotLight" | "RoundDisk_Light" | "DiskLight" | "RecLight"
+            | "RectLight" => {
                 self.not_read(&block, "left out, braces and all");
                 None
             }
@@ -87,6 +90,38 @@ impl Reader<'_> {
             return None;
         }
         Some(Light::Directional { direction: direction.vector(), color: color? })
+    }
+
+    fn sphere_light(&mut self, block: Block<'_>) -> Option<Light> {
+        let mut fields = self.log.fields(block, vocab::LIGHT);
+        self.log.mapped(&fields.head, "`light sphere`");
+        let center = self.log.need_vector(&mut fields, "position", "`center`");
+        let radius = self.positive(&mut fields, "radius", "`radius`");
+        let radiance = self.light_color(&mut fields, "`radiance`");
+        self.log.finish(fields);
+        Some(Light::Sphere { center: center?, radius: radius?, radiance: radiance? })
+    }
+
+    /// A rectangle by its middle and two vectors, half its edges, as two programs have it.
+    fn area_light(&mut self, block: Block<'_>, axes: [&'static str; 2]) -> Option<Light> {
+        let mut fields = self.log.fields(block, vocab::LIGHT);
+        let head = fields.head.clone();
+        self.log.mapped(&head, "`light rect`");
+        let middle = self.log.need_vector(&mut fields, "position", "the middle of the light");
+        let [u, v] = axes.map(|key| self.log.need_vector(&mut fields, key, "half an edge"));
+        let color = self.light_color(&mut fields, "`radiance`");
+        let factor = self.log.take(&mut fields, "emission");
+        if let Some(field) = &factor {
+            self.log.mapped(&field.span, "a factor of `radiance`");
+        }
+        self.log.finish(fields);
+        let (middle, u, v) = (middle?, u?, v?);
+        if u.cross(v) == DVec3::ZERO {
+            self.bad_value("the edges of this light are parallel", &head, "write two directions that differ");
+            return None;
+        }
+        let radiance = color? * factor.map_or(1.0, |field| field.number(0).max(0.0));
+        Some(Light::Rect { origin: middle - u - v, edge_u: 2.0 * u, edge_v: 2.0 * v, radiance })
     }
 
     fn light_color(&mut self, fields: &mut Fields<'_>, how: &str) -> Option<DVec3> {

@@ -4,7 +4,7 @@ use super::{Dialect, Reader, vocab};
 use crate::convert::dialect;
 use crate::convert::error::Mistake;
 use crate::convert::fields::{Field, Fields, Part};
-use crate::convert::model::{Asset, Look, Material, Texture};
+use crate::convert::model::{Look, Material, Texture};
 use crate::convert::parse::{Block, Span};
 use crate::math::DVec3;
 
@@ -47,7 +47,10 @@ impl Reader<'_> {
             _ => told.unwrap_or(self.dialect),
         };
         if !["Material", "PhongMaterial"].contains(&block.name()) {
-            return self.unread_block(block, dialect);
+            return match self.typed_material(block) {
+                Ok(material) => material,
+                Err(block) => self.unread_block(block, dialect),
+            };
         }
         let fields = self.log.fields(block, vocab::MATERIAL);
         match dialect {
@@ -55,6 +58,8 @@ impl Reader<'_> {
             Dialect::Pa1 => self.pa1_material(fields),
             Dialect::Weights => self.weights_material(fields),
             Dialect::Enum => self.enum_material(fields),
+            Dialect::Flags => self.flags_material(fields),
+            Dialect::Factors => self.factors_material(fields),
             _ => self.unread_material(fields, dialect),
         }
     }
@@ -76,7 +81,7 @@ impl Reader<'_> {
         let kind_number = kind.as_ref().map_or(0.0, |field| field.number(0));
         let look = match kind_number {
             _ if emission.is_some() => Look::Emissive { radiance: emission.unwrap_or_default() },
-            1.0 => Look::Mirror { color: tint },
+            1.0 => Look::Mirror { color: Texture::plain(tint) },
             // The original's glass has one index, and Schlick's approximation with R0 = 0.04, that of 1.5.
             2.0 => Look::Glass { ior: 1.5, tint },
             _ => Look::Diffuse { color: Texture::plain(tint) },
@@ -130,18 +135,18 @@ impl Reader<'_> {
         let specular = self.log.take(&mut fields, "specularColor");
         let specular_color = specular.as_ref().map_or(DVec3::ZERO, |field| self.reflectance(field));
         let shininess = self.log.take(&mut fields, "shininess");
-        let picture = self.picture(&mut fields, "texture");
-        self.log.finish(fields);
-
         if let Some(field) = &diffuse {
             self.log.mapped(&field.span, "diffuse colour");
         }
-        let color = Texture { color: diffuse_color, picture };
+        let mut matte = Look::Diffuse { color: Texture::plain(diffuse_color) };
+        self.dress(&mut matte, &mut fields);
+        self.log.finish(fields);
+
         if specular_color == DVec3::ZERO {
             for field in [&specular, &shininess].into_iter().flatten() {
                 self.log.mapped(&field.span, "no highlight");
             }
-            return material(Look::Diffuse { color }, notes);
+            return material(matte, notes);
         }
         let specular_span = specular.map(|field| field.span).unwrap_or_default();
         let how = "a `phong` lobe whose highlight is as bright as the original's at its middle";
@@ -160,6 +165,10 @@ impl Reader<'_> {
                 "it became a lobe of exponent 0, which is as wide; add `shininess` for a highlight",
             );
         }
+        let color = match matte {
+            Look::Diffuse { color } => color,
+            _ => Texture::plain(diffuse_color),
+        };
         let look = fitted_phong(color, specular_color, exponent, &mut notes);
         material(look, notes)
     }
@@ -167,49 +176,45 @@ impl Reader<'_> {
     /// `type d s t`: the probabilities of a diffuse, a mirror and a refracted bounce, all tinted by one colour.
     fn weights_material(&mut self, mut fields: Fields<'_>) -> Material {
         self.log.mapped(&fields.head, "a material");
-        let color = self.one_color(&mut fields);
-        let emission = self.emission(&mut fields, "emission");
-        let picture = self.picture(&mut fields, "texture");
-        let index = self.index(&mut fields, &["refr"]);
         let weights = self.weights(&mut fields);
-        self.drop_bump(&mut fields);
+        let index = self.index(&mut fields, &["refr"]).unwrap_or(1.0);
         for key in ["specularColor", "shininess"] {
             if let Some(field) = self.log.take(&mut fields, key) {
                 self.log.ignored(&field.span, "used by the original's ray caster only");
             }
         }
-        self.log.finish(fields);
-        let tint = color.as_ref().map_or(DVec3::ONE, |field| self.reflectance(field));
-        let color_texture = Texture { color: tint, picture };
-        let look = match emission {
-            Some(radiance) => Look::Emissive { radiance },
-            None => blended(weights, color_texture, index),
-        };
-        self.tint_fate(color, &look);
-        material(look, Vec::new())
+        self.weighted(fields, weights, index)
     }
 
     /// `type WORD` or `type 0|1|2`: one lobe.
     fn enum_material(&mut self, mut fields: Fields<'_>) -> Material {
         self.log.mapped(&fields.head, "a material");
-        let color = self.one_color(&mut fields);
-        let emission = self.emission(&mut fields, "emission");
-        let picture = match self.picture(&mut fields, "texture") {
-            Some(picture) => Some(picture),
-            None => self.picture(&mut fields, "texture_file"),
-        };
-        let index = self.index(&mut fields, INDEX_KEYS);
         let lobe = self.log.take(&mut fields, "type").map_or(0, |field| self.lobe(&field));
-        self.drop_bump(&mut fields);
-        self.log.finish(fields);
-        let tint = color.as_ref().map_or(DVec3::ONE, |field| self.reflectance(field));
+        let index = self.index(&mut fields, INDEX_KEYS).unwrap_or(1.0);
         let mut weights = [0.0; 3];
         weights[lobe] = 1.0;
-        let look = match emission {
+        self.weighted(fields, weights, index)
+    }
+
+    /// What the weights of the three lobes make together with colour, light and picture.
+    pub(super) fn weighted(&mut self, mut fields: Fields<'_>, weights: [f64; 3], index: f64) -> Material {
+        let color = self.one_color(&mut fields);
+        let tint = color.as_ref().map_or(DVec3::ONE, |field| self.reflectance(field));
+        let emission = match self.emission(&mut fields, "emission") {
+            Some(emission) => Some(emission),
+            None => self.emission(&mut fields, "emissionColor"),
+        };
+        let mut look = match emission {
             Some(radiance) => Look::Emissive { radiance },
-            None => blended(weights, Texture { color: tint, picture }, index),
+            None => blended(weights, Texture::plain(tint), index),
         };
         self.tint_fate(color, &look);
+        self.dress(&mut look, &mut fields);
+        if let Some(field) = self.log.take(&mut fields, "bump") {
+            self.log.dropped(&field.span, "bump maps are not read yet");
+            self.note_not_read("`bump`".into(), &field.span, "left out");
+        }
+        self.log.finish(fields);
         material(look, Vec::new())
     }
 
@@ -256,7 +261,7 @@ impl Reader<'_> {
     }
 
     /// A material of a dialect that is not read: its colour and light, if they have a familiar name.
-    fn unread_material(&mut self, mut fields: Fields<'_>, dialect: Dialect) -> Material {
+    pub(super) fn unread_material(&mut self, mut fields: Fields<'_>, dialect: Dialect) -> Material {
         let head = fields.head.clone();
         self.log.approximated(&head, "what is familiar of it");
         let color = self.one_color(&mut fields);
@@ -296,8 +301,8 @@ impl Reader<'_> {
     }
 
     /// `color` or `diffuseColor`, whichever comes last: they share a slot.
-    fn one_color<'t>(&mut self, fields: &mut Fields<'t>) -> Option<Field<'t>> {
-        let color = self.log.take(fields, "color");
+    pub(super) fn one_color<'t>(&mut self, fields: &mut Fields<'t>) -> Option<Field<'t>> {
+        let color = self.log.take(fields, "color").or_else(|| self.log.take(fields, "mColor"));
         let diffuse = self.log.take(fields, "diffuseColor");
         match (color, diffuse) {
             (Some(a), Some(b)) => {
@@ -310,7 +315,7 @@ impl Reader<'_> {
     }
 
     /// What became of a material's colour.
-    fn tint_fate(&mut self, color: Option<Field<'_>>, look: &Look) {
+    pub(super) fn tint_fate(&mut self, color: Option<Field<'_>>, look: &Look) {
         let Some(field) = color else { return };
         match look {
             Look::Emissive { .. } if field.vector() == DVec3::ZERO => {
@@ -323,7 +328,7 @@ impl Reader<'_> {
     }
 
     /// A colour of a surface: each component in 0..=1, as no surface returns more than it receives.
-    fn reflectance(&mut self, field: &Field<'_>) -> DVec3 {
+    pub(super) fn reflectance(&mut self, field: &Field<'_>) -> DVec3 {
         let color = field.vector();
         let clamped = color.clamp(DVec3::ZERO, DVec3::ONE);
         if clamped != color {
@@ -337,7 +342,7 @@ impl Reader<'_> {
     }
 
     /// Emitted light, if there is any.
-    fn emission(&mut self, fields: &mut Fields<'_>, key: &str) -> Option<DVec3> {
+    pub(super) fn emission(&mut self, fields: &mut Fields<'_>, key: &str) -> Option<DVec3> {
         let field = self.log.take(fields, key)?;
         let radiance = field.vector().max(DVec3::ZERO);
         let shines = radiance != DVec3::ZERO;
@@ -345,7 +350,7 @@ impl Reader<'_> {
         shines.then_some(radiance)
     }
 
-    fn index(&mut self, fields: &mut Fields<'_>, keys: &[&str]) -> Option<f64> {
+    pub(super) fn index(&mut self, fields: &mut Fields<'_>, keys: &[&str]) -> Option<f64> {
         let mut index = None;
         for key in keys {
             if let Some(field) = self.log.take(fields, key) {
@@ -356,36 +361,42 @@ impl Reader<'_> {
         index
     }
 
-    fn picture(&mut self, fields: &mut Fields<'_>, key: &str) -> Option<Asset> {
-        let field = self.log.take(fields, key)?;
-        self.log.approximated(&field.span, "`image`, laid on by the shape's own uv coordinates");
-        self.differs(
-            "how a picture is laid on differs from program to program",
-            &field.span,
-            "compare with the original, and turn or scale it by `uv_scale` and `uv_offset`",
-        );
-        field.word.as_ref().map(|word| self.asset(word))
-    }
-
-    fn drop_bump(&mut self, fields: &mut Fields<'_>) {
-        if let Some(field) = self.log.take(fields, "bump") {
-            self.log.dropped(&field.span, "bump maps are not read yet");
-            self.note_not_read("`bump`".into(), &field.span, "left out");
+    /// Puts a material's picture in the place of its colour; glass and lamps have none that it could replace.
+    pub(super) fn dress(&mut self, look: &mut Look, fields: &mut Fields<'_>) {
+        for key in ["texture", "texture_file"] {
+            let Some(field) = self.log.take(fields, key) else { continue };
+            let slot = match look {
+                Look::Diffuse { color } | Look::Mirror { color } | Look::Mix { color, .. } => Some(color),
+                Look::Phong { diffuse, .. } => Some(diffuse),
+                Look::Metal { .. } | Look::Glass { .. } | Look::Emissive { .. } | Look::Placeholder => None,
+            };
+            let (Some(slot), Some(word)) = (slot, &field.word) else {
+                self.log.dropped(&field.span, "a picture that is not read yet here");
+                self.note_not_read("this picture".into(), &field.span, "left out");
+                continue;
+            };
+            slot.picture = Some(self.asset(word));
+            self.log.approximated(&field.span, "`image`, laid on by the shape's own uv coordinates");
+            self.differs(
+                "how a picture is laid on differs from program to program",
+                &field.span,
+                "compare with the original, and turn or scale it by `uv_scale` and `uv_offset`",
+            );
         }
     }
 }
 
 /// A material whose place is still to be set.
-fn material(look: Look, notes: Vec<String>) -> Material {
+pub(super) fn material(look: Look, notes: Vec<String>) -> Material {
     Material { span: 0..0, look, notes }
 }
 
 /// A mix of lobes, or the single one that has all the weight. An index below 1 is that of air in glass.
-fn blended(weights: [f64; 3], color: Texture, index: Option<f64>) -> Look {
-    let ior = index.unwrap_or(1.0).max(1.0);
+fn blended(weights: [f64; 3], color: Texture, index: f64) -> Look {
+    let ior = index.max(1.0);
     match weights {
         [_, 0.0, 0.0] => Look::Diffuse { color },
-        [0.0, _, 0.0] => Look::Mirror { color: color.color },
+        [0.0, _, 0.0] => Look::Mirror { color },
         [0.0, 0.0, _] => Look::Glass { ior, tint: color.color },
         weights => Look::Mix { weights, color, ior },
     }
@@ -404,7 +415,8 @@ fn fitted_phong(diffuse: Texture, specular: DVec3, shininess: f64, notes: &mut V
     if most <= 1.0 {
         return Look::Phong { diffuse, specular, shininess };
     }
-    notes.push(format!("Both colours are divided by {most:.4}, lest more light leaves than arrives."));
-    let diffuse = Texture { color: diffuse.color / most, ..diffuse };
-    Look::Phong { diffuse, specular: specular / most, shininess }
+    let divisor = (most * 1e3).ceil() / 1e3; // so that rounding cannot bring the sum above 1
+    notes.push(format!("Both colours are divided by {divisor}, lest more light leaves than arrives."));
+    let diffuse = Texture { color: diffuse.color / divisor, ..diffuse };
+    Look::Phong { diffuse, specular: specular / divisor, shininess }
 }

@@ -5,8 +5,12 @@
 
 mod camera;
 mod light;
+mod lobes;
 mod material;
 mod object;
+mod plane;
+mod revolve;
+mod shape;
 
 use super::asset::{AssetFinder, Search, picture_size};
 use super::dialect::{Detection, Dialect};

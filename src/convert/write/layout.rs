@@ -63,7 +63,7 @@ impl Entry {
     }
 
     /// The entry on one line, if nothing in it needs lines of its own.
-    fn flat(&self) -> Option<String> {
+    pub fn flat(&self) -> Option<String> {
         let value = match &self.value {
             Value::Text(text) => text.clone(),
             Value::Group(..) => return None,

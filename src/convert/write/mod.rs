@@ -1,12 +1,15 @@
 //! Model → Snell text, as a person would have written it.
 
+mod glossary;
 mod layout;
+mod middle;
 mod names;
 mod object;
+mod picture;
 mod text;
 
 use super::dialect::{Detection, Dialect};
-use super::model::{Background, Camera, Light, Look, Material, Scene, Texture};
+use super::model::{Background, Camera, Light, Look, Scene, Texture};
 use crate::math::DVec3;
 use layout::{Entry, Value, comment, paragraph};
 use std::f64::consts::PI;
@@ -14,7 +17,7 @@ use text::{color, number, point, rough, rough_color, rounded, string};
 
 /// Writes a scene. `name` is the file it came from, `asset_roots` where its files were found.
 pub fn write(scene: &Scene, name: &str, detection: &Detection, asset_roots: &[String]) -> String {
-    let names = object::Glossary::of(scene);
+    let names = glossary::Glossary::of(scene);
     let mut out = String::from("snell 1\n\n");
     out += &header(name, detection, asset_roots);
 
@@ -109,7 +112,7 @@ fn background(background: &Background) -> Vec<Entry> {
 fn light_entry(light: &Light, scene: &Scene) -> Entry {
     match light {
         Light::Point { position, color: c } => {
-            let distance = match object::middle(&scene.objects).distance(*position) {
+            let distance = match middle::of(&scene.objects).distance(*position) {
                 0.0 => 1.0,
                 distance => distance,
             };
@@ -124,6 +127,25 @@ fn light_entry(light: &Light, scene: &Scene) -> Entry {
                 Entry::field("intensity", rough_color(*c * (PI * distance * distance))),
             ];
             Entry::item(Value::Block("light point ".into(), parts)).noted(&[note])
+        }
+        Light::Sphere { center, radius, radiance } => {
+            let parts = vec![
+                Entry::field("center", point(*center)),
+                Entry::field("radius", number(*radius)),
+                Entry::field("radiance", color(*radiance)),
+            ];
+            Entry::item(Value::Block("light sphere ".into(), parts))
+        }
+        Light::Rect { origin, edge_u, edge_v, radiance } => {
+            let parts = vec![
+                Entry::field("origin", point(*origin)),
+                Entry::field("edge_u", point(*edge_u)),
+                Entry::field("edge_v", point(*edge_v)),
+                Entry::field("radiance", color(*radiance)),
+                Entry::field("two_sided", "true"),
+            ];
+            let note = "Programs differ on which side such a light shines to; here it is both.";
+            Entry::item(Value::Block("light rect ".into(), parts)).noted(&[note.into()])
         }
         Light::Directional { direction, color: c } => {
             let luminance = c.dot(DVec3::new(0.2126, 0.7152, 0.0722)); // Rec. 709
@@ -143,9 +165,9 @@ fn light_entry(light: &Light, scene: &Scene) -> Entry {
     }
 }
 
-fn material_value(material: &Material) -> Value {
+fn material_value(look: &Look) -> Value {
     let block = |head: &str, fields: Vec<Entry>| Value::Block(format!("{head} "), fields);
-    match &material.look {
+    match look {
         Look::Diffuse { color } => block("diffuse", vec![texture_field("color", color)]),
         Look::Phong { diffuse, specular, shininess } => block(
             "phong",
@@ -155,7 +177,11 @@ fn material_value(material: &Material) -> Value {
                 Entry::field("shininess", number(*shininess)),
             ],
         ),
-        Look::Mirror { color: c } => block("mirror", vec![Entry::field("color", color(*c))]),
+        Look::Mirror { color } => block("mirror", vec![texture_field("color", color)]),
+        Look::Metal { color: c, roughness } => block(
+            "metal",
+            vec![Entry::field("color", color(*c)), Entry::field("roughness", rounded(*roughness))],
+        ),
         Look::Glass { ior, tint } => glass(*ior, *tint),
         Look::Emissive { radiance } => block("emissive", vec![Entry::field("radiance", color(*radiance))]),
         Look::Mix { weights, color, ior } => mix(*weights, color, *ior),
@@ -176,7 +202,7 @@ fn mix([diffuse, mirror, glass_share]: [f64; 3], tint: &Texture, ior: f64) -> Va
         Value::Block("mix ".into(), fields)
     };
     let matte = Value::Block("diffuse ".into(), vec![texture_field("color", tint)]);
-    let shiny = Value::Block("mirror ".into(), vec![Entry::field("color", color(tint.color))]);
+    let shiny = Value::Block("mirror ".into(), vec![texture_field("color", tint)]);
     let clear = glass(ior, tint.color);
     let specular = mirror + glass_share;
     match (diffuse > 0.0, mirror > 0.0, glass_share > 0.0) {

@@ -31,9 +31,10 @@ pub fn of_look(look: &Look, index: usize) -> String {
     match look {
         Look::Diffuse { color } => surface("matte", color),
         Look::Phong { diffuse, .. } => surface("glossy", diffuse),
-        Look::Mirror { color } => match hue(*color) {
-            None if color.max_element() > 0.8 => "silver_mirror".into(),
-            None => format!("{}_mirror", grey(color.max_element())),
+        Look::Metal { color, .. } => format!("{}_metal", color_name(*color)),
+        Look::Mirror { color } => match hue(color.color) {
+            None if color.color.max_element() > 0.8 => "silver_mirror".into(),
+            None => format!("{}_mirror", grey(color.color.max_element())),
             Some("orange" | "yellow") => "gold_mirror".into(),
             Some(hue) => format!("{hue}_mirror"),
         },
@@ -141,7 +142,7 @@ mod tests {
         assert_eq!(name(glass(0.93, 0.07, 0.04)), "red_glass");
         assert_eq!(name(glass(0.999, 0.999, 0.999)), "clear_glass");
         assert_eq!(name(Look::Emissive { radiance: DVec3::splat(12.0) }), "light_12");
-        assert_eq!(name(Look::Mirror { color: DVec3::new(0.97, 0.6, 0.08) }), "gold_mirror");
+        assert_eq!(name(Look::Mirror { color: Texture::plain(DVec3::new(0.97, 0.6, 0.08)) }), "gold_mirror");
         assert_eq!(name(Look::Diffuse { color: Texture::plain(DVec3::splat(0.8)) }), "matte_grey_80");
         assert_eq!(of_mesh("models/3d-cube.obj"), "mesh_3d_cube");
     }

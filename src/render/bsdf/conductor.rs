@@ -64,3 +64,39 @@ fn sample_visible_normal(alpha: f32, wo: Vec3, u: Vec2) -> Vec3 {
     let h_std = Vec3::new(r * cos_phi, r * sin_phi, z) + wo_std;
     Vec3::new(alpha * h_std.x, alpha * h_std.y, h_std.z).normalize_or(Vec3::Z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_distribution_keeps_its_digits_at_every_width() {
+        for alpha in [1e-4_f32, 1e-3, 1e-2, 0.1, 0.5, 1.0] {
+            for i in 0..1_000 {
+                // Normals as they are drawn: tan θ up to thirty times the width.
+                let tan = alpha * 30.0 * i as f32 / 1_000.0;
+                let h = Vec3::new(tan * 0.6, tan * 0.8, 1.0).normalize();
+                let [x, y, z] = h.as_dvec3().to_array();
+                let a2 = f64::from(alpha) * f64::from(alpha);
+                let s = (x * x + y * y) / a2 + z * z;
+                let expected = 1.0 / (std::f64::consts::PI * a2 * s * s);
+                let error = f64::from(distribution(alpha, h)) / expected - 1.0;
+                assert!(error.abs() < 1e-6, "alpha {alpha}, tan {tan}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn visible_normals_face_the_viewer() {
+        for alpha in [1e-3, 0.1, 1.0] {
+            for cos in [1.0_f32, 0.3, 1e-3, 1e-6] {
+                let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+                for i in 0..1_000 {
+                    let u = Vec2::new(i as f32 / 1_000.0, (i as f32 * 0.618_034).fract());
+                    let h = sample_visible_normal(alpha, wo, u);
+                    assert!(h.is_normalized() && h.z >= 0.0 && wo.dot(h) >= -1e-6, "{alpha} {cos}: {h}");
+                }
+            }
+        }
+    }
+}

@@ -140,7 +140,7 @@ pub fn mis_weight(a: f32, b: f32) -> f32 {
 }
 
 /// The share of light left after `distance` metres of a medium that absorbs `sigma` per metre.
-fn transmittance(sigma: Rgb, distance: f32) -> Rgb {
+pub(in crate::render) fn transmittance(sigma: Rgb, distance: f32) -> Rgb {
     if sigma.is_black() {
         return Rgb::WHITE;
     }
@@ -154,7 +154,7 @@ const SAFE_SPECULAR_BOUNCES: u32 = 32;
 const ENDLESS_BOUNCES: u32 = 8;
 
 /// The probability with which a path of the given worth (its largest throughput) was allowed to go on; `None` if it ends.
-fn roulette(worth: f32, depth: u32, specular: bool, u: impl FnOnce() -> f32) -> Option<f32> {
+pub(super) fn roulette(worth: f32, depth: u32, specular: bool, u: impl FnOnce() -> f32) -> Option<f32> {
     if worth.is_nan() || worth < 1e-30 {
         return None;
     }
@@ -165,4 +165,48 @@ fn roulette(worth: f32, depth: u32, specular: bool, u: impl FnOnce() -> f32) -> 
     let most = if depth < ENDLESS_BOUNCES { 1.0 } else { 0.95 };
     let survival = worth.clamp(0.05, most);
     (u() < survival).then_some(survival)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_of_two_strategies_add_up_to_one_at_the_extremes() {
+        let densities = [0.0, 1e-38, 1.0, 1e38, f32::INFINITY];
+        for a in densities {
+            for b in densities {
+                let (wa, wb) = (mis_weight(a, b), mis_weight(b, a));
+                assert!((0.0..=1.0).contains(&wa), "{a} against {b}: {wa}");
+                assert!(
+                    a == 0.0 && b == 0.0 || (wa + wb - 1.0).abs() <= f32::EPSILON,
+                    "{a} and {b}: {wa} + {wb}"
+                );
+            }
+        }
+        assert_eq!(mis_weight(f32::INFINITY, 1e38), 1.0);
+        assert_eq!(mis_weight(0.0, 1.0), 0.0);
+    }
+
+    #[test]
+    fn roulette_gives_back_what_it_takes() {
+        // A chain of mirrors that reflect 0.9, each bounce adding what it carries: 1 / (1 − 0.9) = 10 on average.
+        for specular in [false, true] {
+            let n = 20_000;
+            let mut total = 0.0;
+            for i in 0..n {
+                let sampler = Sampler::new(7, 0, i, 0);
+                let mut beta = 1.0_f32;
+                for depth in 0..10_000 {
+                    total += f64::from(beta);
+                    beta *= 0.9;
+                    let u = || sampler.get_1d(Dim::Roulette(depth));
+                    let Some(survival) = roulette(beta, depth, specular, u) else { break };
+                    beta /= survival;
+                }
+            }
+            let mean = total / n as f64;
+            assert!((mean - 10.0).abs() < 0.1, "specular {specular}: {mean}");
+        }
+    }
 }

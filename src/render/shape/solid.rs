@@ -199,7 +199,8 @@ impl PlacedSolid {
         let distance = axis.length();
         let sin2 = (radius / distance) * (radius / distance);
         // A point of the sphere itself may lie outside by its rounding, yet it looks at the inner side.
-        let rounding = 16.0 * f64::from(float::UNIT_ROUND_OFF) * (f64::from(from.abs().max_element()) + distance);
+        let rounding =
+            16.0 * f64::from(float::UNIT_ROUND_OFF) * (f64::from(from.abs().max_element()) + distance);
         let outside = distance - radius > rounding && sin2 < 1.0;
         let cos = (1.0 - sin2).sqrt();
         let cone = Cone { axis: axis / distance, radius, sin2, one_minus_cos: sin2 / (1.0 + cos) };
