@@ -43,6 +43,7 @@ pub struct Fate {
 /// The report opens with the count of each outcome. Long stretches are shown by their beginning.
 pub fn render(text: &str, fates: &[Fate]) -> String {
     let mut out = summary(fates);
+    out.push_str("\n\n line  in the file                           what became of it\n");
     let mut line = 1;
     let mut seen = 0;
     for fate in fates {
@@ -54,11 +55,12 @@ pub fn render(text: &str, fates: &[Fate]) -> String {
     out
 }
 
-fn summary(fates: &[Fate]) -> String {
+/// The count of each outcome: "12 mapped, 3 approximated, 0 ignored, 1 dropped".
+pub fn summary(fates: &[Fate]) -> String {
     let count = |name| fates.iter().filter(|fate| fate.outcome.parts().0 == name).count();
     let counts =
         ["mapped", "approximated", "ignored", "dropped"].map(|name| format!("{} {name}", count(name)));
-    format!("{}\n\n line  in the file                           what became of it\n", counts.join(", "))
+    counts.join(", ")
 }
 
 /// The words of a stretch on one line, at most 36 characters.

@@ -1,1 +1,145 @@
-//! (to come)
+//! The typed scene: names bound, units applied, loops run. Metres, seconds, radians, linear colours; `f64` throughout.
+//!
+//! Things that may be shared (shapes, materials, textures) live in arenas and are named by handles. Everything keeps the
+//! span where it was written, so that later phases can point at it.
+
+mod arena;
+pub mod camera;
+pub mod light;
+pub mod material;
+pub mod shape;
+
+use crate::math::DAffine3;
+use crate::source::{Span, Spanned};
+pub use arena::{Arena, Handle};
+pub use camera::{Camera, Exposure, Film, Filter, Focus, Lens, Tone};
+pub use light::{Brightness, Environment, Light, LightKind};
+pub use material::{
+    Checker, ImageUse, Input, Material, MaterialKind, MetalColor, Projection, Texture, TextureKind, Wrap,
+};
+pub use shape::{Curve, CurveKind, Method as RevolveMethod, Outline, Shape, ShapeKind};
+
+/// A whole scene.
+#[derive(Default, Debug)]
+pub struct Scene {
+    /// Every shape that is placed at least once.
+    pub shapes: Arena<Shape>,
+    /// Every material that was written or implied.
+    pub materials: Arena<Material>,
+    /// Every texture.
+    pub textures: Arena<Texture>,
+    /// What is in the picture, in the order written.
+    pub objects: Vec<Object>,
+    /// The lights that are not objects with an emissive material, in the order written.
+    pub lights: Vec<Light>,
+    /// The light that comes from everywhere.
+    pub environment: Option<Environment>,
+    /// The cameras, in the order written.
+    pub cameras: Vec<Camera>,
+    /// How to render.
+    pub render: Render,
+    /// Each parameter with its value in this run.
+    pub params: Vec<Param>,
+    /// The names that objects carry, by the ids in [`Object::names`].
+    pub names: Vec<Named>,
+    /// Warnings that the scene silences: the code and the item's span.
+    pub allows: Vec<(Spanned<String>, Span)>,
+}
+
+/// A shape in its place.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// What it looks like; objects placed several times share it.
+    pub shape: Handle<Shape>,
+    /// What it is made of; `None` where nothing said so: the file's own materials for a mesh, grey otherwise.
+    pub material: Option<Handle<Material>>,
+    /// World space from object space: all transforms around it, composed.
+    pub world_from_object: DAffine3,
+    /// Where each transform around it was written, the innermost first; empty for the identity.
+    pub transforms: Vec<TransformStep>,
+    /// The place that put it into the scene: its block, or the innermost `place`.
+    pub span: Span,
+    /// Who put it there: outer `place`s, groups, calls, innermost first.
+    pub trail: Vec<Span>,
+    /// The names under which `on NAME` finds it: the `let` and the `place .. as` around it.
+    pub names: Vec<u32>,
+}
+
+/// A name that `on NAME` can find: of a `let` whose value is an object, or of a `place .. as`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Named {
+    /// The name, where it is defined.
+    pub name: Spanned<String>,
+    /// How often what it names is in the picture.
+    pub count: u32,
+    /// Who put it there, the first two of them.
+    pub placed: Vec<Span>,
+}
+
+/// One factor of a transform, for reports about singular ones.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct TransformStep {
+    /// The factor alone.
+    pub matrix: DAffine3,
+    /// Where it was written.
+    pub span: Span,
+}
+
+/// A `param` in this run.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Param {
+    /// Its name.
+    pub name: Spanned<String>,
+    /// Its value, as it would be written.
+    pub value: String,
+    /// The sentence above it.
+    pub doc: Option<String>,
+}
+
+/// The `render` block, or what is assumed without one.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Render {
+    /// Which integrator; `None` is `auto`.
+    pub method: Option<Spanned<Method>>,
+    /// When to stop; `None` leaves it to the command.
+    pub stop: Stop,
+    /// The most vertices of a path.
+    pub depth: Option<Spanned<u32>>,
+    /// The seed of all random numbers.
+    pub seed: Option<Spanned<u64>>,
+    /// Photon settings.
+    pub photons: Photons,
+}
+
+/// The integrators that can be asked for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Method {
+    /// Path tracing.
+    Pt,
+    /// Progressive photon mapping.
+    Ppm,
+}
+
+/// When a render stops: at whichever comes first.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Stop {
+    /// After this many passes.
+    pub passes: Option<Spanned<u32>>,
+    /// After this many seconds.
+    pub seconds: Option<Spanned<f64>>,
+    /// When the relative error of the picture is below this.
+    pub error: Option<Spanned<f64>>,
+}
+
+/// Photon settings; what is not said, `plan` chooses.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Photons {
+    /// Photons emitted a pass.
+    pub count: Option<Spanned<u32>>,
+    /// The most photons of a gather.
+    pub k: Option<Spanned<u32>>,
+    /// The gather radius of the first pass, in metres.
+    pub radius: Option<Spanned<f64>>,
+    /// α of Knaus & Zwicker 2011, in (0, 1).
+    pub shrink: Option<Spanned<f64>>,
+}
