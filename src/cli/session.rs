@@ -75,10 +75,10 @@ pub fn show(problems: Problems, sources: &SourceMap, args: &MessageArgs, as_resu
         return;
     }
     match args.message_format {
-        MessageFormat::Human => note(report.human(&style(args.color))),
-        MessageFormat::Short => note(report.short()),
-        MessageFormat::Json if as_result => print(report.json()),
-        MessageFormat::Json => note(report.json()),
+        MessageFormat::Human => note(report.render_human(&style(args.color))),
+        MessageFormat::Short => note(report.render_short()),
+        MessageFormat::Json if as_result => print(report.render_json()),
+        MessageFormat::Json => note(report.render_json()),
     }
 }
 
