@@ -5,17 +5,12 @@ use super::error::CheckError;
 use crate::ir::Object;
 use crate::math::DAffine3;
 use crate::source::Span;
-use rustc_hash::FxHashSet;
 
 impl Check<'_> {
-    /// Reports singular transforms, each factor that is to blame once.
+    /// Reports singular transforms, by the factor that is to blame.
     pub(super) fn transforms(&mut self) {
-        let mut blamed: FxHashSet<Span> = FxHashSet::default();
         for object in self.scene.objects.iter().filter(|object| is_singular(&object.world_from_object)) {
-            let factor = blame(object);
-            if blamed.insert(factor) {
-                self.report(CheckError::SingularTransform { factor, object: object.span });
-            }
+            self.report(CheckError::SingularTransform { factor: blame(object), object: object.span });
         }
     }
 }

@@ -2,7 +2,6 @@
 
 use super::dimension::{Dimension, Quantity};
 use super::error::Error;
-use super::expr::unknown_name_help;
 use super::fields::EMPTY;
 use super::{Env, Resolver, Value, color};
 use crate::diag::did_you_mean;
@@ -85,8 +84,9 @@ impl<'a> Resolver<'a> {
         let visible = env.visible();
         let names = visible.iter().map(|definition| definition.name);
         let help = match schema::block(name) {
-            Some(_) => unknown_name_help(name, env),
-            None => did_you_mean(name, names.chain(kinds))
+            Some(_) => self.unknown_name_help(name, env),
+            None => self
+                .propose(name, names.chain(kinds))
                 .or_else(|| Some(format!("define it: `let {name} = diffuse {{ color: #ff8800 }}`"))),
         };
         self.poison(Error::UnknownMaterial { name: name.to_owned(), used, help })

@@ -303,6 +303,16 @@ pub enum Error {
         #[help]
         help: String,
     },
+    #[error("`{function}` needs a value for `{name}`")]
+    #[diagnostic(code(snell::resolve::missing_argument))]
+    MissingArgument {
+        function: String,
+        name: String,
+        #[label("in this call")]
+        used: Span,
+        #[help]
+        help: String,
+    },
     #[error("`{function}` has no parameter `{name}`")]
     #[diagnostic(code(snell::resolve::unknown_argument))]
     UnknownArgument {

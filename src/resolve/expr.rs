@@ -3,7 +3,7 @@
 use super::builtin;
 use super::dimension::{Dimension, Quantity, UNITS, with_unit};
 use super::error::Error;
-use super::scope::{Kind, Scope};
+use super::scope::{Definition, Kind, Scope};
 use super::{Env, Resolver, Step, Value, color};
 use crate::diag::did_you_mean;
 use crate::ir;
@@ -97,8 +97,20 @@ impl<'a> Resolver<'a> {
         if let Some(color) = color::named(name) {
             return Value::Color(color);
         }
-        let help = unknown_name_help(name, env);
+        let help = self.unknown_name_help(name, env);
         self.poison(Error::UnknownName { name: name.to_owned(), used, help })
+    }
+
+    /// What to say of a name that nothing defines.
+    pub(super) fn unknown_name_help(&mut self, name: &str, env: &Env<'a>) -> Option<String> {
+        if let Some(block) = schema::block(name) {
+            return Some(format!("`{name}` needs its braces, as in `{}`", block.example));
+        }
+        let visible = env.visible();
+        let defined = self.propose(name, visible.iter().map(|definition| definition.name));
+        defined
+            .or_else(|| did_you_mean(name, known_names(&visible)))
+            .or_else(|| Some(format!("define it with `let {name} = ..`, or take it away")))
     }
 
     /// `mat.gold`, `p.x`.
@@ -132,7 +144,7 @@ impl<'a> Resolver<'a> {
             return self.value_of(scope, &definition);
         }
         let names = scope.in_order();
-        let help = did_you_mean(field, names.iter().map(|definition| definition.name));
+        let help = self.propose(field, names.iter().map(|definition| definition.name));
         let owner = format!("`{}`", self.text(module));
         self.unknown_member(&owner, field, help)
     }
@@ -321,18 +333,11 @@ impl<'a> Resolver<'a> {
     }
 }
 
-/// What to say of a name that nothing defines.
-pub fn unknown_name_help(name: &str, env: &Env) -> Option<String> {
-    if let Some(block) = schema::block(name) {
-        return Some(format!("`{name}` needs its braces, as in `{}`", block.example));
-    }
-    let visible = env.visible();
+/// The names that may have been meant where a value is wanted, the scene's own first.
+fn known_names<'n>(visible: &[Rc<Definition<'n>>]) -> Vec<&'n str> {
     let mut known: Vec<&str> = visible.iter().map(|definition| definition.name).collect();
-    let defined = did_you_mean(name, known.iter().copied());
     for name in builtin::names().chain(color::NAMED.iter().map(|(name, _)| *name)) {
         known.push(name);
     }
-    defined
-        .or_else(|| did_you_mean(name, known))
-        .or_else(|| Some(format!("define it with `let {name} = ..`, or take it away")))
+    known
 }
