@@ -1,7 +1,9 @@
 //! What can be wrong or doubtful in a file of the family, each with its place and its cure.
 
 use miette::{Diagnostic, Severity, SourceSpan};
+use rustc_hash::FxHashMap;
 use std::fmt;
+use std::mem::{Discriminant, discriminant};
 
 /// A mistake in the file, or something a person should know about its conversion.
 ///
@@ -330,16 +332,13 @@ pub enum Mistake {
         at: SourceSpan,
     },
 
-    #[error("{what}: the converter does not read {dialect} yet")]
+    #[error("{what} is not read yet")]
     #[diagnostic(code(snell::convert::not_read_yet))]
     NotReadYet {
         what: String,
-        dialect: String,
         #[label("{done}")]
         at: SourceSpan,
         done: &'static str,
-        #[help]
-        help: Option<String>,
     },
 
     #[error("{what} cannot be expressed: {why}")]
@@ -350,6 +349,10 @@ pub enum Mistake {
         #[label("left out")]
         at: SourceSpan,
     },
+
+    #[error("{count} more of the same kinds were found")]
+    #[diagnostic(code(snell::convert::more), help("of each kind the first {MOST_OF_A_KIND} are listed"))]
+    More { count: usize },
 
     #[error("{what}")]
     #[diagnostic(code(snell::convert::differs), help("{help}"))]
@@ -370,6 +373,7 @@ impl Mistake {
                 self,
                 IndexAtCount { .. }
                     | NoCamera
+                    | More { .. }
                     | CountMismatch { .. }
                     | Repeated { .. }
                     | Comment { .. }
@@ -437,21 +441,36 @@ impl Diagnostic for ConvertError {
     }
 }
 
+/// How many mistakes of a kind are listed; a file of noise has millions.
+const MOST_OF_A_KIND: usize = 100;
+
 /// Collects mistakes while a file is converted.
 #[derive(Debug, Default)]
 pub struct Notebook {
     strict: bool,
     list: Vec<ConvertError>,
+    /// How many of each kind there were; only looked up.
+    counts: FxHashMap<Discriminant<Mistake>, usize>,
+    /// How many were not listed.
+    unlisted: usize,
 }
 
 impl Notebook {
     /// In strict mode, whatever the converter does not understand is an error.
     pub fn new(strict: bool) -> Self {
-        Self { strict, list: Vec::new() }
+        Self { strict, ..Self::default() }
     }
 
     /// Notes a mistake.
+    ///
+    /// Mistakes of one kind have one severity, so what is not listed never hides an error.
     pub fn note(&mut self, mistake: Mistake) {
+        let count = self.counts.entry(discriminant(&mistake)).or_default();
+        *count += 1;
+        if *count > MOST_OF_A_KIND {
+            self.unlisted += 1;
+            return;
+        }
         let is_warning = mistake.is_warning() && !(self.strict && mistake.is_unknown());
         let severity = if is_warning { Severity::Warning } else { Severity::Error };
         self.list.push(ConvertError { mistake, severity });
@@ -464,6 +483,9 @@ impl Notebook {
 
     /// Everything noted, by the place of the first label; mistakes without a place come last.
     pub fn into_sorted(mut self) -> Vec<ConvertError> {
+        if self.unlisted > 0 {
+            self.note(Mistake::More { count: self.unlisted });
+        }
         self.list.sort_by_key(|error| {
             let first = error.labels().and_then(|mut labels| labels.next());
             first.map_or(usize::MAX, |label| label.offset())

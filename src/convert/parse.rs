@@ -220,10 +220,12 @@ fn word<'t>(pair: &Pair<'t, Rule>) -> Word<'t> {
     Word { text: pair.as_str(), span: span(pair) }
 }
 
-/// A number too large for 64 bits stays a word; whoever wants a number there says so.
+/// A number, in double precision but with the range of the original's single precision: what is too small for it
+/// is 0, and what is too large stays a word; whoever wants a number there says so.
 fn number<'t>(pair: &Pair<'t, Rule>) -> Node<'t> {
     match pair.as_str().parse::<f64>() {
-        Ok(value) if value.is_finite() => {
+        Ok(value) if value.abs() <= f64::from(f32::MAX) => {
+            let value = if value as f32 == 0.0 { 0.0 } else { value };
             Node::Number(Number { value, text: pair.as_str(), span: span(pair) })
         }
         _ => Node::Word(word(pair)),

@@ -10,7 +10,7 @@ use miette::{
 use std::fmt;
 
 /// How many steps of the way to a mistake are shown.
-const MAX_TRAIL: usize = 8;
+const MAX_TRAIL: usize = 4;
 
 /// How reports look.
 #[derive(Clone, Copy, Debug)]

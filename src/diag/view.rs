@@ -37,7 +37,7 @@ impl<'a> View<'a> {
             None => self.show(id),
         };
         let file = self.sources.file(id);
-        let start = (span.start - file.base) as usize;
+        let start = drawable((span.start - file.base) as usize, &file.text);
         let line = file.line_range(file.line_of(start));
         let line_end = start.max(line.start + file.text[line.clone()].trim_end().len());
         let end = ((span.end - file.base) as usize).min(line_end).max(start);
@@ -80,7 +80,7 @@ impl SourceCode for View<'_> {
         let line = file.line_of(shown.start);
         let column = file.text[file.line_range(line).start..shown.start].chars().count();
         let data = &file.text.as_bytes()[shown.clone()];
-        let line_count = data.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let line_count = data.split_inclusive(|&byte| byte == b'\n').count().max(1);
         let place = SourceSpan::new((base + shown.start).into(), shown.len());
         Ok(Box::new(MietteSpanContents::new_named(file.name.clone(), data, place, line, column, line_count)))
     }
@@ -100,10 +100,7 @@ fn with_lines(file: &SourceFile, local: Range<usize>, before: usize, after: usiz
         .unwrap_or(first);
     let end = file.line_count().min(last + 1 + after);
     let last = (last + 1..end).take_while(|&line| !is_long(line)).last().unwrap_or(last);
-    let shown = file.line_range(first).start..file.line_range(last).end;
-    // The last line feed would begin one more line.
-    let shown_end = if file.text[shown.clone()].ends_with('\n') { shown.end - 1 } else { shown.end };
-    Some(shown.start..shown_end.max(local.end))
+    Some(file.line_range(first).start..file.line_range(last).end)
 }
 
 /// The surroundings of a label on a long line.
@@ -116,6 +113,14 @@ fn cut(file: &SourceFile, local: Range<usize>) -> Option<Range<usize>> {
     let line_end = line.start + file.text[line].trim_end_matches(['\n', '\r']).len();
     let end = round_up(&file.text, (local.end + AROUND).min(line_end.max(local.end)));
     Some(start.min(local.start)..end)
+}
+
+/// The place itself, or the last character for the end of a text, where nothing is drawn.
+fn drawable(start: usize, text: &str) -> usize {
+    match text.char_indices().next_back() {
+        Some((last, _)) if start >= text.len() => last,
+        _ => start,
+    }
 }
 
 /// The first offset from `offset` on that begins a character.

@@ -1,6 +1,6 @@
 //! Sequences: the entries of files and blocks, the elements between parentheses and brackets, and what separates them.
 
-use super::ast::{Allow, Block, Entry, ExprKind, Field, Item, ItemKind};
+use super::ast::{Allow, Block, Entry, ExprKind, Field, Item, ItemKind, Name};
 use super::error::SyntaxError;
 use super::grammar::{Parts, Rule};
 use super::lower::{Lower, is_reserved, item, poison};
@@ -78,6 +78,9 @@ impl Lower<'_> {
     fn entry(&mut self, pair: Pair<'_, Rule>, in_block: bool, sequence: &mut Sequence) {
         let (start, rule) = (pair.as_span().start(), pair.as_rule());
         let follows_on_line = !self.text.begins_line(start);
+        if !follows_on_line {
+            sequence.last = Last::Separated;
+        }
         if follows_on_line && self.is_part_of_mistake(rule, sequence) {
             return;
         }
@@ -160,14 +163,8 @@ impl Lower<'_> {
     fn field_entry(&mut self, pair: Pair<'_, Rule>, in_block: bool, sequence: &mut Sequence) {
         let mut parts = Parts::of(pair);
         let Some(name) = parts.next().map(|name| self.word(&name)) else { return };
-        if is_reserved(&name) && parts.peek_rule() == Some(Rule::wrong_equals) {
-            self.note(SyntaxError::MissingName {
-                what: "this definition",
-                example: "goblet",
-                at: name.span.after(),
-            });
-            sequence.push(item(ItemKind::Poison, name.span));
-            return;
+        if is_reserved(&name) {
+            return self.reserved_field(name, sequence);
         }
         // What stands outside every block is no field, so its sign is not worth a word.
         if !in_block {
@@ -195,6 +192,18 @@ impl Lower<'_> {
         self.refuse_allows(sequence);
         sequence.entries.push(Entry::Field(Field { name, value }));
         sequence.last = Last::Open;
+    }
+
+    /// `let = 3`, `param: int = 3`: a definition without its name looks like a field.
+    fn reserved_field(&mut self, name: Name, sequence: &mut Sequence) {
+        sequence.push(item(ItemKind::Poison, name.span));
+        let at = name.span.after();
+        self.note(match name.value.as_str() {
+            "let" | "param" | "fn" => {
+                SyntaxError::MissingName { what: "this definition", example: "goblet", at }
+            }
+            _ => SyntaxError::ReservedWord { word: name.value, at: name.span },
+        });
     }
 
     /// `allow` is for items.

@@ -322,7 +322,7 @@ pub enum SyntaxError {
     #[diagnostic(code(snell::syntax::too_deep), help("give the inner parts names with `let`"))]
     TooDeep {
         limit: usize,
-        #[label("one level too many")]
+        #[label("too deep from here on")]
         at: Span,
     },
 

@@ -1,15 +1,16 @@
 //! Scenes of other programs, known by how they begin.
 
 use super::error::SyntaxError;
-use crate::source::Span;
+use super::text::Text;
 
-/// The report for a text that begins as no scene of this language does, but one of another; `text` has no comments.
-pub(super) fn recognise(text: &str, base: u32) -> Option<SyntaxError> {
+/// The report for a text that begins as no scene of this language does, but one of another.
+pub(super) fn recognise(place: &Text<'_>) -> Option<SyntaxError> {
+    let text = place.text;
     let start = text.len() - text.trim_start().len();
     let line = text[start..].lines().next()?;
     let word = line.split(|c: char| !(c.is_ascii_alphanumeric() || "#_<?!".contains(c))).next()?;
     let (language, hint) = language(word, line)?;
-    let at = Span::new(base + start as u32, base + (start + line.trim_end().len()) as u32);
+    let at = place.span(start, start + line.trim_end().len());
     Some(SyntaxError::Foreign { language, hint: hint.to_owned(), at })
 }
 

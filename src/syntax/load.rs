@@ -1,15 +1,12 @@
 //! From the main file to all that it includes and imports.
 
-use super::ast::{Entry, Expr, File, FileIndex, Item, Program};
+use super::ast::{File, FileIndex, Item, Program};
 use super::error::SyntaxError;
 use super::foreign::recognise;
-use super::grammar::{Parts, Rule, Snell};
 use super::lower::{Lower, Request};
 use super::repair::repair;
 use crate::diag::Problems;
 use crate::source::{FileId, Files, Missing, SourceMap, Span};
-use pest::Parser;
-use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -73,7 +70,7 @@ impl<'a> Loader<'a> {
             Ok(repaired) => repaired,
             Err(error) => return self.refuse(error).unwrap_or_default(),
         };
-        if let Some(error) = recognise(&repaired.text, base) {
+        if let Some(error) = recognise(&repaired.as_text(&text, base)) {
             return self.refuse(error).unwrap_or_default();
         }
         let mut load = |request: &Request| self.load(source, request);
@@ -162,75 +159,15 @@ impl<'a> Loader<'a> {
     }
 }
 
-impl Lower<'_> {
-    /// `file = { SOI ~ entry* ~ EOI }`
-    fn file(&mut self) -> Vec<Item> {
-        let file = match Snell::parse(Rule::file, self.text.text) {
-            Ok(mut pairs) => pairs.next(),
-            Err(error) => {
-                self.unparsed(&error);
-                None
-            }
-        };
-        let Some(file) = file else { return Vec::new() };
-        let mut parts = Parts::of(file);
-        self.version(&mut parts);
-        let (entries, _) = self.entries(parts, false);
-        let as_item = |entry| match entry {
-            Entry::Item(item) => Some(item),
-            Entry::Field(_) => None,
-        };
-        entries.into_iter().filter_map(as_item).collect()
-    }
-
-    /// `alone = { SOI ~ value ~ EOI }`, as in `--set NAME=VALUE`
-    pub(super) fn alone(&mut self) -> Option<Expr> {
-        let parsed = Snell::parse(Rule::alone, self.text.text).map(|mut pairs| pairs.next());
-        let alone = parsed.unwrap_or_else(|error| {
-            self.unparsed(&error);
-            None
-        })?;
-        let what = "one value, and no more,".to_owned();
-        let at = self.text.span(0, self.text.text.len());
-        let mut values = self.elements(alone, "values", |lower, value| Some(lower.value(value)));
-        match (values.pop(), values.is_empty()) {
-            (Some(value), true) => Some(value),
-            _ if self.errors.is_empty() => {
-                let hint = "write for example `8`, `3cm` or `true`".to_owned();
-                self.note(SyntaxError::MissingValue { what, hint, at });
-                None
-            }
-            _ => None,
-        }
-    }
-
-    /// The mistakes of the whole text: those of its brackets and quotes, and those that do not follow from them.
-    pub(super) fn finish(mut self, mut errors: Vec<SyntaxError>, guesses: &[Range<u32>]) -> Vec<SyntaxError> {
-        if let [first, rest @ ..] = self.semicolons.as_slice() {
-            let others = match rest.len() {
-                0 => String::new(),
-                1 => " (nor does the other one in this file)".to_owned(),
-                count => format!(" (nor do the {count} others in this file)"),
-            };
-            let at = *first;
-            self.note(SyntaxError::Semicolon { others, at });
-        }
-        // At most one open quote stands on a line, so the lines are in order and apart.
-        let follows = |error: &SyntaxError| {
-            let line = guesses.partition_point(|line| line.end < error.at());
-            guesses.get(line).is_some_and(|line| line.start <= error.at())
-        };
-        errors.extend(self.errors.iter().filter(|error| !follows(error)).cloned());
-        errors
-    }
-}
-
 /// What to say of a file that cannot be found.
 fn missing_error(missing: Missing, name: &str, at: Span) -> SyntaxError {
     let path = name.to_owned();
     match missing {
         Missing::NotFound { near, .. } => {
-            let quoted: Vec<String> = near.iter().map(|name| format!("`{name}`")).collect();
+            // Names of files come without the folder that was written before the wanted one.
+            let folder = name.rsplit_once('/').map(|(folder, _)| format!("{folder}/")).unwrap_or_default();
+            let folder = |near: &str| if near.contains('/') { String::new() } else { folder.clone() };
+            let quoted: Vec<String> = near.iter().map(|name| format!("`{}{name}`", folder(name))).collect();
             let hint = (!quoted.is_empty()).then(|| format!("did you mean {}?", quoted.join(" or ")));
             SyntaxError::FileNotFound { path, at, hint }
         }

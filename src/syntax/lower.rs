@@ -55,6 +55,7 @@ impl<'a> Lower<'a> {
         lower: impl FnOnce(&mut Self) -> T,
     ) -> Option<T> {
         if self.depth + levels > MAX_DEPTH {
+            let at = Span::new(at.start, at.end.min(at.start + 1));
             self.note(SyntaxError::TooDeep { limit: MAX_DEPTH, at });
             return None;
         }

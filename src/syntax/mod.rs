@@ -6,6 +6,7 @@ mod block;
 pub mod dump;
 mod error;
 mod expr;
+mod file;
 mod foreign;
 mod grammar;
 mod item;

@@ -1,8 +1,8 @@
 //! What should not be there: operators of other languages, lines that cannot be read.
 
 use super::error::SyntaxError;
-use super::grammar::{Parts, Rule};
-use super::lower::{Lower, MAX_DEPTH, is_reserved};
+use super::grammar::Rule;
+use super::lower::{Lower, is_reserved};
 use pest::iterators::Pair;
 
 impl Lower<'_> {
@@ -20,27 +20,6 @@ impl Lower<'_> {
         let at = self.text.first_line_of(pair);
         let hint = "`snell doc` shows how the same is said here".to_owned();
         self.note(SyntaxError::Foreign { language, hint, at });
-    }
-
-    /// `version = { kw_snell ~ number }`, the first thing in a file.
-    pub(super) fn version(&mut self, parts: &mut Parts<'_>) {
-        let Some(version) = parts.take(Rule::version) else {
-            self.note(SyntaxError::MissingVersion { at: self.text.span(0, 0) });
-            return;
-        };
-        let number = Parts::of(version).next();
-        let Some(number) = number.filter(|number| number.as_str() != "1") else { return };
-        let (written, at) = (number.as_str().to_owned(), self.text.span_of(&number));
-        self.note(SyntaxError::UnsupportedVersion { written, at });
-    }
-
-    /// A text that the parser gave up: brackets that lie too deep for it.
-    pub(super) fn unparsed(&mut self, error: &pest::error::Error<Rule>) {
-        use pest::error::InputLocation;
-        let offset = match error.location {
-            InputLocation::Pos(offset) | InputLocation::Span((offset, _)) => offset,
-        };
-        self.note(SyntaxError::TooDeep { limit: MAX_DEPTH, at: self.text.first_char(offset) });
     }
 
     /// Text that no rule reads.
@@ -98,7 +77,8 @@ impl Lower<'_> {
         let rest = &self.text.text[offset..];
         let word =
             &rest[..rest.bytes().take_while(|byte| byte.is_ascii_alphanumeric() || *byte == b'_').count()];
-        let found = is_reserved(word) && !self.text.begins_line(offset);
+        let joins = matches!(word, "and" | "as" | "else" | "in" | "or" | "per" | "then");
+        let found = is_reserved(word) && !joins && !self.text.begins_line(offset);
         if found {
             let at = self.text.span(offset, offset + word.len());
             self.note(SyntaxError::ReservedWord { word: word.to_owned(), at });

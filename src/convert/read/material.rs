@@ -292,11 +292,9 @@ impl Reader<'_> {
 
     fn note_unread(&mut self, dialect: Dialect, at: &Span, done: &'static str) {
         self.log.notes.note(Mistake::NotReadYet {
-            what: "this material".into(),
-            dialect: dialect.title().into(),
+            what: format!("this material, of {},", dialect.title()),
             at: at.clone().into(),
             done,
-            help: None,
         });
     }
 

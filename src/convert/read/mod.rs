@@ -186,11 +186,7 @@ impl Reader<'_> {
     }
 
     fn note_not_read(&mut self, what: String, at: &Span, done: &'static str) {
-        let dialect = match self.dialect {
-            Dialect::Arsenal | Dialect::Pa1 | Dialect::Weights | Dialect::Enum => "this extension".into(),
-            dialect => dialect.title().into(),
-        };
-        self.log.notes.note(Mistake::NotReadYet { what, dialect, at: at.clone().into(), done, help: None });
+        self.log.notes.note(Mistake::NotReadYet { what, at: at.clone().into(), done });
     }
 
     /// A word, with its numbers, that is neither a block nor belongs to one.

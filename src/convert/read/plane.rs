@@ -36,6 +36,13 @@ impl Reader<'_> {
             self.log.notes.note(Mistake::NormalNotUnit { length, at: normal.span.clone().into() });
         }
         let (normal, offset) = (normal.vector() / length, offset? / length);
+        if self.dialect == Dialect::Flags {
+            self.differs(
+                "a plane of a dialect that is not agreed on its side",
+                &head,
+                "it was put where `normal . p = offset`; one program means `normal . p = -offset`",
+            );
+        }
         if self.is_seen_through(normal, offset) {
             self.log.drop_all(&span, "the camera is behind it, where this dialect's planes cannot be seen");
             let what = "a plane between the camera and the scene".into();

@@ -88,6 +88,19 @@ impl Lobe {
         matches!(self, Self::Lambert { .. })
     }
 
+    /// One lobe that scatters as both together, if there is one.
+    pub(super) fn joined(&self, other: &Self) -> Option<Self> {
+        match (*self, *other) {
+            (Self::Lambert { albedo: a }, Self::Lambert { albedo: b }) => {
+                Some(Self::Lambert { albedo: a + b })
+            }
+            (Self::Mirror { f0, f90 }, Self::Mirror { f0: g0, f90: g90 }) => {
+                Some(Self::Mirror { f0: f0 + g0, f90: f90 + g90 })
+            }
+            _ => None,
+        }
+    }
+
     /// About how much light it sends on, seen from `wo`: the chance of being chosen among other lobes.
     pub(super) fn albedo(&self, wo: Vec3) -> f32 {
         match *self {

@@ -120,7 +120,7 @@ impl Materials {
         let mut this = Self { materials, textures, emissions: Vec::new() };
         let ids = (0..this.materials.len() as u32).map(MaterialId);
         this.emissions = ids.clone().map(|id| this.find_emission(id)).collect();
-        let most = ids.map(|id| this.lobe_count(id)).max().unwrap_or(0);
+        let most = ids.map(|id| lobe_count(&this.materials, id)).max().unwrap_or(0);
         assert!(most <= Bsdf::MAX_LOBES, "a mix of materials has at most {} lobes", Bsdf::MAX_LOBES);
         this
     }
@@ -188,16 +188,6 @@ impl Materials {
         }
     }
 
-    /// The most lobes that a material can have at a point.
-    fn lobe_count(&self, id: MaterialId) -> usize {
-        match *self.get(id) {
-            Material::Emissive { .. } => 0,
-            Material::Phong { .. } => 2,
-            Material::Mix { a, b, .. } => self.lobe_count(a) + self.lobe_count(b),
-            _ => 1,
-        }
-    }
-
     /// The emission of a material. A mix by a texture counts by the texture's mean, wherever light is found or drawn.
     fn find_emission(&self, id: MaterialId) -> Emission {
         match *self.get(id) {
@@ -226,5 +216,30 @@ impl Materials {
 
     fn scalar(&self, input: Input, surface: &SurfacePoint) -> f32 {
         self.color(input, surface).mean()
+    }
+}
+
+/// The most lobes that a material can have at a point: each glossy part and each glass is one, all diffuse parts
+/// together are one, and all mirrors are. A world takes no material with more than [`Bsdf::MAX_LOBES`].
+pub fn lobe_count(materials: &[Material], id: MaterialId) -> usize {
+    let mut parts = Vec::new();
+    collect_parts(materials, id, &mut parts);
+    let any = |wanted: fn(&Material) -> bool| usize::from(parts.iter().any(|part| wanted(part)));
+    let glossy = |part: &&Material| {
+        matches!(part, Material::Phong { .. } | Material::Metal { .. } | Material::Glass { .. })
+    };
+    any(|part| matches!(part, Material::Diffuse { .. } | Material::Phong { .. }))
+        + any(|part| matches!(part, Material::Mirror { .. }))
+        + parts.iter().filter(glossy).count()
+}
+
+/// The materials that a mix comes down to.
+fn collect_parts(materials: &[Material], id: MaterialId, parts: &mut Vec<Material>) {
+    match materials[id.0 as usize] {
+        Material::Mix { a, b, .. } => {
+            collect_parts(materials, a, parts);
+            collect_parts(materials, b, parts);
+        }
+        part => parts.push(part),
     }
 }

@@ -13,7 +13,7 @@ mod phong;
 
 pub use dielectric::fresnel_dielectric;
 pub use lobe::Lobe;
-pub use material::{Emission, Input, Material, MaterialId, Materials, TextureId};
+pub use material::{Emission, Input, Material, MaterialId, Materials, TextureId, lobe_count};
 
 use super::geometry::SurfacePoint;
 use crate::math::{Frame, Rgb, Vec2, Vec3};
@@ -63,7 +63,7 @@ struct View {
 }
 
 impl Bsdf {
-    /// The most lobes at one point.
+    /// The most lobes at one point: few, because a bsdf is made at every vertex.
     pub const MAX_LOBES: usize = 6;
 
     /// A surface that scatters nothing yet.
@@ -72,8 +72,14 @@ impl Bsdf {
         Self { frame, n: surface.n, lobes: [Lobe::NONE; Self::MAX_LOBES], count: 0 }
     }
 
-    /// Adds a lobe.
+    /// Adds a lobe; diffuse ones are joined into one, and mirrors are too.
     pub fn add(&mut self, lobe: Lobe) {
+        for present in &mut self.lobes[..self.count] {
+            if let Some(joined) = present.joined(&lobe) {
+                *present = joined;
+                return;
+            }
+        }
         self.lobes[self.count] = lobe;
         self.count += 1;
     }
@@ -96,7 +102,14 @@ impl Bsdf {
         self.lobes().iter().any(|lobe| !lobe.is_specular())
     }
 
+    /// Whether [`Self::sample`] looks at `u_lobe`: not with a single lobe that only reflects.
+    pub fn has_choice(&self) -> bool {
+        !matches!(self.lobes(), [lobe] if !matches!(lobe, Lobe::Dielectric { .. }))
+    }
+
     /// The value for a pair of directions times `|cos θi|`, per steradian; zero for specular lobes.
+    ///
+    /// The cosine is that of the shading normal: what a photon of flux Φ per area gives off is `eval · Φ / |wi · n|`.
     pub fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb {
         self.eval_pdf(wo, wi).0
     }

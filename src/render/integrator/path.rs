@@ -2,7 +2,7 @@
 
 use super::{Counters, Integrator, Pass};
 use crate::math::{Ray, Rgb, Vec3, float};
-use crate::render::bsdf::{Bsdf, Transport};
+use crate::render::bsdf::{Bsdf, BsdfSample, Transport};
 use crate::render::geometry::SurfacePoint;
 use crate::render::sampler::{Dim, Sampler};
 use crate::render::world::World;
@@ -11,6 +11,14 @@ use crate::render::world::World;
 pub struct PathTracer<'a> {
     world: &'a World,
     max_depth: u32,
+}
+
+/// Where a path is.
+struct Vertex<'a> {
+    surface: &'a SurfacePoint,
+    bsdf: &'a Bsdf,
+    wo: Vec3,
+    depth: u32,
 }
 
 /// The vertex a path left last: by what other strategy could light found next have been drawn from there?
@@ -53,13 +61,13 @@ impl Integrator for PathTracer<'_> {
                 break;
             }
             let bsdf = self.world.bsdf(&surface);
+            let vertex = Vertex { surface: &surface, bsdf: &bsdf, wo, depth };
             if bsdf.is_smooth() {
-                radiance += beta * self.direct(&surface, &bsdf, wo, medium, sampler, depth, counters);
+                radiance += beta * self.direct(&vertex, medium, sampler, counters);
             }
 
             // Follow one direction onwards.
-            let (u, u_lobe) = (sampler.get_2d(Dim::Bsdf(depth)), sampler.get_1d(Dim::Lobe(depth)));
-            let Some(next) = bsdf.sample(wo, u, u_lobe, Transport::Radiance) else { break };
+            let Some(next) = vertex.sample_bsdf(sampler) else { break };
             beta *= next.weight;
             eta_scale *= next.eta * next.eta;
             ray = surface.spawn(next.wi);
@@ -97,33 +105,35 @@ impl PathTracer<'_> {
         radiance * mis_weight(last.pdf, self.world.lights.pdf_area(&self.world.geometry, last.p, surface))
     }
 
-    /// What one light sends straight to the surface and on along `wo`, weighed against finding it by the bsdf.
-    #[allow(clippy::too_many_arguments)]
-    fn direct(
-        &self,
-        surface: &SurfacePoint,
-        bsdf: &Bsdf,
-        wo: Vec3,
-        medium: Rgb,
-        sampler: &Sampler,
-        depth: u32,
-        counters: &mut Counters,
-    ) -> Rgb {
-        let choice = self.world.lights.choose(sampler.get_1d(Dim::LightChoice(depth)));
-        let Some((light, pmf)) = choice else { return Rgb::BLACK };
+    /// What one light sends straight to a vertex and on to the viewer, weighed against finding it by the bsdf.
+    fn direct(&self, vertex: &Vertex, medium: Rgb, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+        let (world, depth) = (self.world, vertex.depth);
+        let Some((light, pmf)) = world.lights.choose(sampler.get_1d(Dim::LightChoice(depth))) else {
+            return Rgb::BLACK;
+        };
         let u = sampler.get_2d(Dim::Light(depth));
-        let Some(drawn) = light.sample_li(&self.world.geometry, surface.p, u) else { return Rgb::BLACK };
-        let (value, pdf_bsdf) = bsdf.eval_pdf(wo, drawn.wi);
-        if value.is_black() {
+        let Some(drawn) = light.sample_li(&world.geometry, vertex.surface.p, u) else { return Rgb::BLACK };
+        let (value, pdf_bsdf) = vertex.bsdf.eval_pdf(vertex.wo, drawn.wi);
+        let arriving = value * drawn.radiance;
+        if arriving.is_black() {
             return Rgb::BLACK;
         }
         counters.rays += 1;
-        if self.world.any_hit(&drawn.shadow_ray(surface)) {
+        if world.any_hit(&drawn.shadow_ray(vertex.surface)) {
             return Rgb::BLACK;
         }
         let pdf = pmf * drawn.pdf;
         let weight = if drawn.delta { 1.0 } else { mis_weight(pdf, pdf_bsdf) };
-        value * drawn.radiance * transmittance(medium, drawn.distance()) * (weight / pdf)
+        arriving * transmittance(medium, drawn.distance()) * (weight / pdf)
+    }
+}
+
+impl Vertex<'_> {
+    /// Draws the direction in which the path goes on.
+    fn sample_bsdf(&self, sampler: &Sampler) -> Option<BsdfSample> {
+        let u = sampler.get_2d(Dim::Bsdf(self.depth));
+        let u_lobe = if self.bsdf.has_choice() { sampler.get_1d(Dim::Lobe(self.depth)) } else { 0.0 };
+        self.bsdf.sample(self.wo, u, u_lobe, Transport::Radiance)
     }
 }
 

@@ -154,14 +154,14 @@ impl PhotonMapper<'_> {
 }
 
 /// The photons that count, and the squared radius of the disc over which they are spread.
-fn bounding_disc(found: &mut [Neighbor], k: usize, radius2: f32) -> (&[Neighbor], f32) {
-    if found.len() < k {
-        return (found, radius2);
+fn bounding_disc(found: &[Neighbor], k: usize, radius2: f32) -> (&[Neighbor], f32) {
+    match found.split_last() {
+        // Photons on one spot bound no disc.
+        Some((farthest, inside)) if found.len() == k && farthest.radius2 >= f32::MIN_POSITIVE => {
+            (inside, farthest.radius2)
+        }
+        _ => (found, radius2),
     }
-    let (inside, farthest, _) = found.select_nth_unstable_by(k - 1, Neighbor::order);
-    // Photons on one spot bound no disc.
-    let disc2 = if farthest.radius2 < f32::MIN_POSITIVE { radius2 } else { farthest.radius2 };
-    (inside, disc2)
 }
 
 /// The sum of what photons send along `wo`, each its power times the bsdf.

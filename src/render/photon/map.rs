@@ -101,7 +101,8 @@ impl PhotonMap {
         &self.photons
     }
 
-    /// Collects the nearest `disc.k` of the photons that `accepts` wants, in no order; fewer if fewer are in reach.
+    /// Collects the nearest `disc.k` of the photons that `accepts` wants, the farthest of them last and the others in no
+    /// order; if fewer are in reach, all these, in no order.
     ///
     /// Nothing is sorted before more than twice `k` are in hand: then the nearest `k` stay, and the radius shrinks to theirs.
     pub fn nearest(&self, disc: &Disc, accepts: impl Fn(&Photon) -> bool, found: &mut Vec<Neighbor>) {
@@ -119,7 +120,7 @@ impl PhotonMap {
             }
             reach2
         });
-        if found.len() > disc.k {
+        if found.len() >= disc.k {
             keep_nearest(found, disc.k);
         }
     }
