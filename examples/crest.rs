@@ -30,7 +30,7 @@ const STAR: Vec2 = Vec2::new(0.0, 0.965);
 const FOCUS: Vec2 = Vec2::new(0.0, 0.175);
 
 fn main() -> io::Result<()> {
-    let mesh = solid(&Drawing::new());
+    let mesh = solid(&Drawing::new()).weld(1e-4);
     let volume = mesh.manifold_volume().map_err(io::Error::other)?;
     println!("a manifold, volume {volume:.4}");
     mesh.save("crest", "Snell's crest, by examples/crest.rs", Normals::Crease(0.5), &[])
