@@ -34,8 +34,26 @@ pub fn lint<'a>(program: &'a Program, problems: &mut Problems) -> Vec<Unused<'a>
             lint.root(FileIndex(index as u32));
         }
     }
+    if is_library(program) {
+        lint.unused.retain(|unused| unused.kind == "the import");
+    }
     lint.unused.sort_by_key(|unused| unused.defined);
     lint.unused
+}
+
+/// Whether the main file holds definitions only: then they are for those who import it.
+fn is_library(program: &Program) -> bool {
+    let defines = |item: &Item| {
+        matches!(
+            item.kind,
+            ItemKind::Import { .. }
+                | ItemKind::Units(_)
+                | ItemKind::Param { .. }
+                | ItemKind::Let { .. }
+                | ItemKind::Fn(_)
+        )
+    };
+    program.files[0].items.iter().all(defines)
 }
 
 struct Lint<'a, 'p> {
