@@ -1,1 +1,9 @@
+//! All integration tests, in one binary: linking several costs more than running them.
 
+mod laws;
+mod laws_geometry;
+mod laws_photon;
+mod layers;
+mod robust;
+mod robust_syntax;
+mod snapshots;

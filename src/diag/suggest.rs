@@ -33,7 +33,7 @@ mod tests {
 
     #[test]
     fn the_nearest_name_comes_first() {
-        assert_eq!(nearest("glas", ["mirror", "glass", "gloss"]), ["glass"]);
+        assert_eq!(nearest("glas", ["mirror", "gloss", "glass"]), ["glass", "gloss"]);
         assert_eq!(did_you_mean("sphree", ["sphere", "plane"]).as_deref(), Some("did you mean `sphere`?"));
         assert_eq!(did_you_mean("xyz", ["sphere", "plane"]), None);
     }

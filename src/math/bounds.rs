@@ -1,6 +1,6 @@
 //! Axis-aligned boxes.
 
-use super::Vec3;
+use super::{DVec3, Vec3};
 
 /// An axis-aligned box; empty when `min > max` in some axis.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -25,6 +25,16 @@ impl Bounds {
         points.into_iter().fold(Self::EMPTY, Self::grow)
     }
 
+    /// The smallest single-precision box that holds the box between two corners in double precision.
+    pub fn enclosing(min: DVec3, max: DVec3) -> Self {
+        let down = |x: f64| if f64::from(x as f32) > x { (x as f32).next_down() } else { x as f32 };
+        let up = |x: f64| if f64::from(x as f32) < x { (x as f32).next_up() } else { x as f32 };
+        Self::new(
+            Vec3::new(down(min.x), down(min.y), down(min.z)),
+            Vec3::new(up(max.x), up(max.y), up(max.z)),
+        )
+    }
+
     /// The smallest box that holds this one and a point.
     #[must_use]
     pub fn grow(self, p: Vec3) -> Self {
@@ -37,9 +47,29 @@ impl Bounds {
         Self::new(self.min.min(other.min), self.max.max(other.max))
     }
 
+    /// What both hold.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Self {
+        Self::new(self.min.max(other.min), self.max.min(other.max))
+    }
+
+    /// The parts below and above a plane orthogonal to `axis`, which cuts the box.
+    pub fn split(self, axis: usize, position: f32) -> [Self; 2] {
+        let (mut low, mut high) = (self, self);
+        low.max[axis] = position;
+        high.min[axis] = position;
+        [low, high]
+    }
+
     /// Whether the box holds no point.
     pub fn is_empty(self) -> bool {
         self.min.cmpgt(self.max).any()
+    }
+
+    /// Half of the surface area, in double precision; 0 when empty.
+    pub fn half_area(self) -> f64 {
+        let s = self.size().max(Vec3::ZERO).as_dvec3();
+        if self.is_empty() { 0.0 } else { s.x * s.y + s.y * s.z + s.z * s.x }
     }
 
     /// Edge lengths; negative where empty.

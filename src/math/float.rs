@@ -51,3 +51,18 @@ pub fn acos(x: f32) -> f32 {
 pub fn tan64(x: f64) -> f64 {
     libm::tan(x)
 }
+
+/// e to the power `x`, less 1; keeps its digits near 0.
+pub fn exp_m1(x: f32) -> f32 {
+    libm::expm1f(x)
+}
+
+/// The natural logarithm of `1 + x`; keeps its digits near 0.
+pub fn ln_1p(x: f32) -> f32 {
+    libm::log1pf(x)
+}
+
+/// The angle of the vector `(x, y)` from the x axis, in (−π, π], in double precision.
+pub fn atan2_64(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}

@@ -2,5 +2,19 @@
 //!
 //! Opaque `u32` ids lead back to where a thing was written; `lower` holds that table.
 
+pub mod accel;
+pub mod bsdf;
+pub mod camera;
+pub mod driver;
+pub mod film;
 pub mod geometry;
+pub mod integrator;
+pub mod light;
+pub mod photon;
+pub mod sampler;
 pub mod shape;
+pub mod texture;
+pub mod world;
+
+pub use driver::{Method, Monitor, Outcome, PpmSettings, Progress, Settings, Stats, Stop, StoppedBy, render};
+pub use world::{Parts, World};

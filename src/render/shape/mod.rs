@@ -1,5 +1,11 @@
 //! What can be hit.
 
+pub mod revolve;
+pub mod roots;
+pub mod solid;
+pub mod sphere;
+pub mod triangle;
+
 use crate::math::{DAffine3, DVec2, Vec2, Vec3};
 
 /// Index of a material in the world.
@@ -30,12 +36,21 @@ pub struct Mesh {
     pub source: SourceId,
 }
 
+impl Mesh {
+    /// The positions of the vertices of a triangle.
+    pub fn corners(&self, triangle: [u32; 3]) -> [Vec3; 3] {
+        triangle.map(|vertex| self.positions[vertex as usize])
+    }
+}
+
 /// A shape that is intersected exactly, in double precision, in its own frame.
 pub struct Solid {
     /// Which, in object space.
     pub kind: SolidKind,
     /// World space from object space; not singular. May mirror.
     pub world_from_object: DAffine3,
+    /// The frame in which textures are projected, from object space.
+    pub texture_from_object: DAffine3,
     /// What it is made of.
     pub material: MaterialId,
     /// Where it came from.

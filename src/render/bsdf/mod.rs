@@ -1,0 +1,252 @@
+//! Scattering at a point of a surface.
+//!
+//! A [`Material`] with its textures looked up at a point is a [`Bsdf`]: a frame and a few weighted [`Lobe`]s. It answers
+//! the trio of every distribution: `eval`, `pdf`, `sample`; the three agree. Lobes that scatter into a single direction
+//! evaluate to zero, and only `sample` finds them.
+
+mod conductor;
+mod dielectric;
+mod lobe;
+mod material;
+mod mirror;
+mod phong;
+
+pub use dielectric::fresnel_dielectric;
+pub use lobe::Lobe;
+pub use material::{Emission, Input, Material, MaterialId, Materials, TextureId, lobe_count};
+
+use super::geometry::SurfacePoint;
+use crate::math::{Frame, Rgb, Vec2, Vec3};
+use lobe::LobeSample;
+
+/// What is carried along a path: the two differ by η² at refraction, and where shading normals stand in for real ones.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Transport {
+    /// Radiance, sought by paths from the camera.
+    Radiance,
+    /// Power, carried by photons.
+    Importance,
+}
+
+/// A drawn direction.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct BsdfSample {
+    /// The unit direction, leaving the surface.
+    pub wi: Vec3,
+    /// `eval / pdf`.
+    pub weight: Rgb,
+    /// The density per steradian, of all lobes together; for a specular lobe the probability of choosing it.
+    pub pdf: f32,
+    /// Whether the lobe scatters into this direction alone.
+    pub specular: bool,
+    /// The refractive index behind the surface, relative to the one in front, if the path went through; 1 otherwise.
+    pub eta: f32,
+}
+
+/// How light scatters at one point.
+#[derive(Clone, Copy, Debug)]
+pub struct Bsdf {
+    /// About the shading normal.
+    frame: Frame,
+    /// The geometric normal: it alone decides on which side a direction lies.
+    n: Vec3,
+    lobes: [Lobe; Self::MAX_LOBES],
+    count: usize,
+}
+
+/// The outgoing direction in the frame that serves it.
+struct View {
+    frame: Frame,
+    /// −1 when seen from behind: local z axes are turned, so that `wo.z > 0`.
+    side: f32,
+    wo: Vec3,
+}
+
+impl Bsdf {
+    /// The most lobes at one point: few, because a bsdf is made at every vertex.
+    pub const MAX_LOBES: usize = 6;
+
+    /// A surface that scatters nothing yet.
+    pub fn new(surface: &SurfacePoint) -> Self {
+        let frame = Frame { x: surface.tangent, y: surface.ns.cross(surface.tangent), z: surface.ns };
+        Self { frame, n: surface.n, lobes: [Lobe::NONE; Self::MAX_LOBES], count: 0 }
+    }
+
+    /// Adds a lobe; diffuse ones are joined into one, and mirrors are too.
+    pub fn add(&mut self, lobe: Lobe) {
+        for present in &mut self.lobes[..self.count] {
+            if let Some(joined) = present.joined(&lobe) {
+                *present = joined;
+                return;
+            }
+        }
+        self.lobes[self.count] = lobe;
+        self.count += 1;
+    }
+
+    /// The lobes in the order they were added.
+    pub fn lobes(&self) -> &[Lobe] {
+        &self.lobes[..self.count]
+    }
+
+    /// Only the lobes that a photon mapper, say, is interested in.
+    #[must_use]
+    pub fn only(&self, keep: impl Fn(&Lobe) -> bool) -> Self {
+        let mut part = Self { count: 0, ..*self };
+        self.lobes().iter().filter(|lobe| keep(lobe)).for_each(|&lobe| part.add(lobe));
+        part
+    }
+
+    /// Whether any lobe scatters into more than one direction.
+    pub fn is_smooth(&self) -> bool {
+        self.lobes().iter().any(|lobe| !lobe.is_specular())
+    }
+
+    /// Whether [`Self::sample`] looks at `u_lobe`: not with a single lobe that only reflects.
+    pub fn has_choice(&self) -> bool {
+        !matches!(self.lobes(), [lobe] if !matches!(lobe, Lobe::Dielectric { .. }))
+    }
+
+    /// The value for a pair of directions times `|cos θi|`, per steradian; zero for specular lobes.
+    ///
+    /// The cosine is that of the shading normal: what a photon of flux Φ per area gives off is `eval · Φ / |wi · n|`.
+    pub fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        self.eval_pdf(wo, wi).0
+    }
+
+    /// The density with which [`Self::sample`] draws `wi`, per steradian; zero for specular lobes.
+    pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        self.eval_pdf(wo, wi).1
+    }
+
+    /// [`Self::eval`] and [`Self::pdf`] at once.
+    ///
+    /// Both directions are unit vectors that leave the surface. Light does not pass through a smooth lobe, so both are
+    /// zero when the two lie on different sides of the geometric normal.
+    pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
+        const NOTHING: (Rgb, f32) = (Rgb::BLACK, 0.0);
+        if !self.same_side(wo, wi) {
+            return NOTHING;
+        }
+        let Some(view) = self.view(wo) else { return NOTHING };
+        let wi = view.to_local(wi);
+        if wi.z <= 0.0 {
+            return NOTHING;
+        }
+        self.eval_pdf_local(view.wo, wi)
+    }
+
+    /// Draws a direction: a lobe by `u_lobe`, then from the lobe by `u`.
+    ///
+    /// `None` when nothing is scattered: seen edge-on, black, or drawn to where no light can go.
+    pub fn sample(&self, wo: Vec3, u: Vec2, u_lobe: f32, transport: Transport) -> Option<BsdfSample> {
+        let view = self.view(wo)?;
+        let (lobe, pmf, u_rest) = self.choose(view.wo, u_lobe)?;
+        let drawn = lobe.sample(view.wo, view.side > 0.0, u, u_rest, transport)?;
+        let wi = self.on_its_side(wo, view.to_world(drawn.wi), &drawn)?;
+        let (weight, pdf) = self.weigh(&view, &drawn, pmf)?;
+        let weight = match transport {
+            Transport::Radiance => weight,
+            Transport::Importance => weight * self.shading_correction(wo, wi, &view, drawn.wi),
+        };
+        Some(BsdfSample { wi, weight, pdf, specular: drawn.specular, eta: drawn.eta })
+    }
+
+    /// Weight and density of a drawn direction among all lobes.
+    fn weigh(&self, view: &View, drawn: &LobeSample, pmf: f32) -> Option<(Rgb, f32)> {
+        if drawn.specular || self.count == 1 {
+            return Some((drawn.weight / pmf, drawn.pdf * pmf));
+        }
+        let (value, pdf) = self.eval_pdf_local(view.wo, drawn.wi);
+        (pdf > 0.0).then(|| (value / pdf, pdf))
+    }
+
+    /// All smooth lobes together, in the local frame, above the horizon.
+    fn eval_pdf_local(&self, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
+        let (mut value, mut pdf, mut total) = (Rgb::BLACK, 0.0, 0.0);
+        for lobe in self.lobes() {
+            let share = lobe.albedo(wo);
+            total += share;
+            if !lobe.is_specular() {
+                let (f, p) = lobe.eval_pdf(wo, wi);
+                value += f;
+                pdf += share * p;
+            }
+        }
+        if total > 0.0 { (value, pdf / total) } else { (Rgb::BLACK, 0.0) }
+    }
+
+    /// A lobe with the probability of choosing it, in proportion to its albedo, and what is left of `u`.
+    fn choose(&self, wo: Vec3, u: f32) -> Option<(&Lobe, f32, f32)> {
+        if let [lobe] = self.lobes() {
+            return (lobe.albedo(wo) > 0.0).then_some((lobe, 1.0, u));
+        }
+        let total: f32 = self.lobes().iter().map(|lobe| lobe.albedo(wo)).sum();
+        let mut rest = u * total;
+        let mut chosen = None;
+        for lobe in self.lobes() {
+            let share = lobe.albedo(wo);
+            if share > 0.0 {
+                chosen = Some((lobe, share / total, (rest / share).clamp(0.0, ONE_MINUS)));
+                if rest < share {
+                    break;
+                }
+            }
+            rest -= share;
+        }
+        chosen
+    }
+
+    /// The frame for an outgoing direction; `None` edge-on.
+    ///
+    /// Where an interpolated normal faces away from a viewer who sees the surface, the geometric one takes its place:
+    /// nothing that is visible turns black, and no cosine turns negative.
+    fn view(&self, wo: Vec3) -> Option<View> {
+        let cos = wo.dot(self.n);
+        let side = 1.0_f32.copysign(cos);
+        let shading = View { frame: self.frame, side, wo: Vec3::ZERO };
+        let wo_local = shading.to_local(wo);
+        if wo_local.z > 0.0 && cos != 0.0 {
+            return Some(View { wo: wo_local, ..shading });
+        }
+        let geometric = View { frame: Frame::from_normal(self.n), side, wo: Vec3::ZERO };
+        let wo = geometric.to_local(wo);
+        (wo.z > 0.0).then_some(View { wo, ..geometric })
+    }
+
+    /// Whether two directions lie on the same side of the geometric surface.
+    fn same_side(&self, a: Vec3, b: Vec3) -> bool {
+        a.dot(self.n) * b.dot(self.n) > 0.0
+    }
+
+    /// Holds a drawn direction to the side of the geometric surface that it belongs to.
+    ///
+    /// A specular direction that an interpolated normal sends to the wrong side is bent back; any other is lost.
+    fn on_its_side(&self, wo: Vec3, wi: Vec3, drawn: &LobeSample) -> Option<Vec3> {
+        if self.same_side(wo, wi) != drawn.through {
+            return Some(wi);
+        }
+        let bent = wi - self.n * (2.0 * wi.dot(self.n));
+        (drawn.specular && self.same_side(wo, bent) != drawn.through).then_some(bent)
+    }
+
+    /// What makes scattering of photons by shading normals the adjoint of that of radiance (Veach 1997, eq. 5.19).
+    fn shading_correction(&self, wo: Vec3, wi: Vec3, view: &View, wi_local: Vec3) -> f32 {
+        let (shading, geometric) = (view.wo.z * wi.dot(self.n), wi_local.z * wo.dot(self.n));
+        (shading / geometric).abs()
+    }
+}
+
+impl View {
+    fn to_local(&self, w: Vec3) -> Vec3 {
+        let w = self.frame.to_local(w);
+        Vec3::new(w.x, w.y, w.z * self.side)
+    }
+
+    fn to_world(&self, w: Vec3) -> Vec3 {
+        self.frame.to_world(Vec3::new(w.x, w.y, w.z * self.side)).normalize()
+    }
+}
+
+/// The largest number below 1.
+const ONE_MINUS: f32 = 1.0 - f32::EPSILON / 2.0;

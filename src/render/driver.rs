@@ -1,0 +1,228 @@
+//! The driver: pass after pass until it is time to stop.
+//!
+//! A pass is one camera sample a pixel. Its tiles are computed by all threads and merged in their order, so that the
+//! film holds the same bits for any number of threads, and it always holds whole passes.
+
+use super::film::{ErrorEstimate, Film, Region, Tile};
+use super::integrator::{Counters, Integrator, Pass, PathTracer, PhotonMapper};
+use super::sampler::Dim;
+use super::world::World;
+use crate::math::Vec2;
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// The way light is simulated.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Method {
+    /// Path tracing.
+    Pt,
+    /// Progressive photon mapping.
+    Ppm(PpmSettings),
+}
+
+/// Settings of progressive photon mapping.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct PpmSettings {
+    /// Photons emitted in each pass.
+    pub photon_count: u32,
+    /// The most photons gathered at a point.
+    pub k: u32,
+    /// The largest radius of the first pass, in metres.
+    pub radius: f32,
+    /// The share α of photons kept as the radius shrinks, in (0, 1) (Knaus & Zwicker 2011).
+    pub shrink: f64,
+}
+
+/// When to stop: at whichever comes first. If none is set, after one pass.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Stop {
+    /// After so many passes.
+    pub passes: Option<u32>,
+    /// After so many seconds; the pass under way is finished.
+    pub seconds: Option<f64>,
+    /// When the picture's estimated error is below this.
+    pub error: Option<f64>,
+}
+
+/// Everything about a render but the world.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Settings {
+    /// The way light is simulated.
+    pub method: Method,
+    /// The most vertices of a path, the one on the light included and the camera not.
+    pub max_depth: u32,
+    /// Another seed, other noise.
+    pub seed: u64,
+    /// When to stop.
+    pub stop: Stop,
+    /// The part of the picture to render; all of it by default.
+    pub crop: Option<Region>,
+}
+
+/// Watches a render. Called from the thread that renders, but for `cancelled`, which all threads call.
+pub trait Monitor: Sync {
+    /// A pass was added to the film.
+    fn pass_done(&self, progress: &Progress);
+
+    /// Whether to stop at once; the pass under way is dropped whole.
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Watches nothing.
+impl Monitor for () {
+    fn pass_done(&self, _: &Progress) {}
+}
+
+/// How far a render has come.
+pub struct Progress<'a> {
+    /// What was seen so far.
+    pub film: &'a Film,
+    /// Seconds since the first pass began.
+    pub seconds: f64,
+    /// What was done.
+    pub counters: Counters,
+}
+
+/// What a render did.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Stats {
+    /// Whole passes in the film.
+    pub passes: u32,
+    /// Camera samples in the film.
+    pub samples: u64,
+    /// Rays and photons.
+    pub counters: Counters,
+    /// Samples that were infinite, negative, or not a number; they count as 0.
+    pub bad_samples: u64,
+    /// Seconds spent on what passes share, such as photon maps.
+    pub prepare_seconds: f64,
+    /// Seconds spent on camera paths.
+    pub camera_seconds: f64,
+    /// Seconds from the first pass to the end.
+    pub seconds: f64,
+}
+
+/// Why a render ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum StoppedBy {
+    /// All passes were done.
+    Passes,
+    /// Time was up.
+    Time,
+    /// The error was low enough.
+    Error,
+    /// The monitor asked for it.
+    Cancelled,
+}
+
+/// A finished render.
+pub struct Outcome {
+    /// The picture.
+    pub film: Film,
+    /// What was done.
+    pub stats: Stats,
+    /// Why it ended.
+    pub stopped_by: StoppedBy,
+    /// The error of the picture; `None` below two passes.
+    pub error: Option<ErrorEstimate>,
+}
+
+/// Renders a world. Runs on the current rayon pool.
+pub fn render(world: &World, settings: &Settings, monitor: &dyn Monitor) -> Outcome {
+    match settings.method {
+        Method::Pt => run(PathTracer::new(world, settings.max_depth), world, settings, monitor),
+        Method::Ppm(ppm) => run(PhotonMapper::new(world, ppm, settings.max_depth), world, settings, monitor),
+    }
+}
+
+/// Tiles of 16 × 16 pixels: many enough to balance threads, large enough to keep nearby paths together.
+const TILE_SIDE: u32 = 16;
+
+/// The first pass after which the error is looked at; then at each doubling, because stopping as soon as an estimate
+/// happens to be low would favour pictures that underrate their error.
+const FIRST_ERROR_CHECK: u32 = 16;
+
+fn run<I: Integrator>(
+    mut integrator: I,
+    world: &World,
+    settings: &Settings,
+    monitor: &dyn Monitor,
+) -> Outcome {
+    let start = Instant::now();
+    let picture = Region { x: 0, y: 0, width: world.camera.width(), height: world.camera.height() };
+    let region = settings.crop.map_or(picture, |crop| crop.clipped(&picture));
+    let tiles = region.tiles(TILE_SIDE);
+    let mut film = Film::new(region);
+    let mut stats = Stats::default();
+    let stopped_by = loop {
+        if let Some(reason) = reason_to_stop(&settings.stop, &film, start.elapsed().as_secs_f64()) {
+            break reason;
+        }
+        let pass = Pass { index: film.passes(), seed: settings.seed };
+
+        let prepare = Instant::now();
+        integrator.begin_pass(pass, &mut stats.counters);
+        stats.prepare_seconds += prepare.elapsed().as_secs_f64();
+
+        let camera = Instant::now();
+        let Some(done) = render_tiles(&integrator, world, &tiles, pass, monitor) else {
+            break StoppedBy::Cancelled;
+        };
+        stats.camera_seconds += camera.elapsed().as_secs_f64();
+
+        let (samples, counters): (Vec<Tile>, Vec<Counters>) = done.into_iter().unzip();
+        counters.into_iter().for_each(|tile| stats.counters += tile);
+        film.add_pass(&samples);
+        let seconds = start.elapsed().as_secs_f64();
+        monitor.pass_done(&Progress { film: &film, seconds, counters: stats.counters });
+    };
+    stats.passes = film.passes();
+    stats.samples = u64::from(film.passes()) * region.area() as u64;
+    stats.bad_samples = film.bad_count();
+    stats.seconds = start.elapsed().as_secs_f64();
+    Outcome { error: film.error(), film, stats, stopped_by }
+}
+
+/// Whether the film is good enough, or time is up.
+fn reason_to_stop(stop: &Stop, film: &Film, seconds: f64) -> Option<StoppedBy> {
+    let passes = film.passes();
+    let unset = *stop == Stop::default();
+    if stop.passes.is_some_and(|most| passes >= most) || unset && passes >= 1 {
+        return Some(StoppedBy::Passes);
+    }
+    if stop.seconds.is_some_and(|most| passes >= 1 && seconds >= most) {
+        return Some(StoppedBy::Time);
+    }
+    let error = stop.error.filter(|_| passes >= FIRST_ERROR_CHECK && passes.is_power_of_two())?;
+    film.error().is_some_and(|estimate| estimate.error < error).then_some(StoppedBy::Error)
+}
+
+/// All tiles of a pass, in their order; `None` when cancelled.
+fn render_tiles<I: Integrator>(
+    integrator: &I,
+    world: &World,
+    tiles: &[Region],
+    pass: Pass,
+    monitor: &dyn Monitor,
+) -> Option<Vec<(Tile, Counters)>> {
+    tiles
+        .par_iter()
+        .map(|&tile| (!monitor.cancelled()).then(|| render_tile(integrator, world, tile, pass)))
+        .collect()
+}
+
+/// One sample for every pixel of a tile.
+fn render_tile<I: Integrator>(integrator: &I, world: &World, region: Region, pass: Pass) -> (Tile, Counters) {
+    let camera = &world.camera;
+    let mut counters = Counters::default();
+    let sample = |[x, y]: [u32; 2]| {
+        let sampler = pass.camera_sampler(u64::from(y) << 32 | u64::from(x));
+        let u_lens = if camera.has_lens() { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
+        let ray = camera.ray([x, y], sampler.get_2d(Dim::Filter), u_lens);
+        integrator.radiance(ray, &sampler, &mut counters)
+    };
+    let samples = region.pixels().map(sample).collect();
+    (Tile { region, samples }, counters)
+}

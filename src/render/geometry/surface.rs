@@ -1,0 +1,120 @@
+//! From a hit to the full surface point, and rays that leave it.
+
+use super::{AreaSample, Geometry, Hit, Prim, PrimId, SurfacePoint};
+use crate::math::{Bounds, DVec3, Ray, Vec2, Vec3, float};
+use crate::render::shape::Mesh;
+use crate::render::shape::solid::{SolidHit, orthogonal_tangent};
+use crate::render::shape::triangle::cross_of_edges;
+
+impl Geometry {
+    /// Everything about the point where `ray` met the geometry.
+    pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        match self.prim(hit.prim) {
+            Prim::Triangle(mesh, corners) => triangle_point(mesh, corners, hit.uv, hit.prim),
+            Prim::Solid(solid) => solid.surface_point(ray, SolidHit { t: hit.t, uv: hit.uv }, hit.prim),
+        }
+    }
+}
+
+impl SurfacePoint {
+    /// The ray that leaves along `dir`, from an origin that lies beyond the rounding errors of the surface.
+    pub fn spawn(&self, dir: Vec3) -> Ray {
+        Ray::new(offset(self.p, self.p_error, self.n, dir), dir)
+    }
+
+    /// The open segment (0, 1) to `target` on a surface with normal `target_n`, both ends moved off their surfaces.
+    ///
+    /// A target that lies on no surface, a point light, has zero error and any normal.
+    pub fn spawn_to(&self, target: Vec3, target_error: Vec3, target_n: Vec3) -> Ray {
+        let o = offset(self.p, self.p_error, self.n, target - self.p);
+        let end = offset(target, target_error, target_n, o - target);
+        Ray { o, d: end - o, t_max: 1.0 }
+    }
+}
+
+impl AreaSample {
+    /// The ray that leaves along `dir`, from an origin that lies beyond the rounding errors of the surface.
+    pub fn spawn(&self, dir: Vec3) -> Ray {
+        Ray::new(offset(self.p, self.p_error, self.n, dir), dir)
+    }
+}
+
+/// `p` moved along the normal, to the side of `dir`, until it is surely off the surface.
+///
+/// The shift is the extent of the error box along `n`; the result is rounded away from the surface
+/// (Pharr, Jakob, Humphreys 2023, section 6.8.6).
+fn offset(p: Vec3, p_error: Vec3, n: Vec3, dir: Vec3) -> Vec3 {
+    if p_error == Vec3::ZERO {
+        return p;
+    }
+    let side = if n.dot(dir) < 0.0 { -n } else { n };
+    let shift = side * side.abs().dot(p_error);
+    let moved = p + shift;
+    let outwards = |x: f32, by: f32| match by {
+        by if by > 0.0 => x.next_up(),
+        by if by < 0.0 => x.next_down(),
+        _ => x,
+    };
+    Vec3::new(outwards(moved.x, shift.x), outwards(moved.y, shift.y), outwards(moved.z, shift.z))
+}
+
+/// The point with barycentrics `b` (of the second and third vertex) on a triangle.
+pub(super) fn triangle_point(mesh: &Mesh, corners: [u32; 3], b: Vec2, prim: PrimId) -> SurfacePoint {
+    let positions = mesh.corners(corners);
+    let (p, p_error) = interpolate_point(positions, b);
+    let n = cross_of_edges(positions).normalize().as_vec3().normalize();
+    let ns = shading_normal(mesh, corners, b, n);
+    let (uv, tangent) = texture_frame(mesh, corners, b);
+    SurfacePoint {
+        p,
+        p_error,
+        n,
+        ns,
+        tangent: orthogonal_tangent(tangent, ns),
+        uv,
+        p_object: mesh.object_from_world.transform_point3(p.as_dvec3()).as_vec3(),
+        material: mesh.material,
+        prim,
+        source: mesh.source,
+    }
+}
+
+/// The point of a triangle with barycentrics `b`, and the bound γ(7)·(Σ|bᵢ·vᵢ| + size) on its error.
+///
+/// The sum is the rounding of coordinates, axis by axis. The size of the triangle is what its test rounds by, once it
+/// has sheared the axes into each other: a point of the plane z = 0, where no z is ever rounded, still needs that room.
+pub(super) fn interpolate_point(positions: [Vec3; 3], b: Vec2) -> (Vec3, Vec3) {
+    let size = f64::from(Bounds::of(positions).size().max_element());
+    let b = weights(b);
+    let terms = [0, 1, 2].map(|i| positions[i].as_dvec3() * b[i]);
+    let p = terms[0] + terms[1] + terms[2];
+    let error = (terms[0].abs() + terms[1].abs() + terms[2].abs() + size) * f64::from(float::gamma(7));
+    (p.as_vec3(), error.as_vec3())
+}
+
+/// All three barycentrics from the last two.
+fn weights(b: Vec2) -> [f64; 3] {
+    let (b1, b2) = (f64::from(b.x), f64::from(b.y));
+    [1.0 - b1 - b2, b1, b2]
+}
+
+/// The interpolated normal on the side of `n`; `n` itself where there is none.
+fn shading_normal(mesh: &Mesh, corners: [u32; 3], b: Vec2, n: Vec3) -> Vec3 {
+    let Some(normals) = &mesh.normals else { return n };
+    let [n0, n1, n2] = corners.map(|vertex| normals[vertex as usize]);
+    let ns = (n0 * (1.0 - b.x - b.y) + n1 * b.x + n2 * b.y).try_normalize().unwrap_or(n);
+    if ns.dot(n) < 0.0 { -ns } else { ns }
+}
+
+/// The texture point, and the direction in which its u grows; zero where the texture is degenerate.
+fn texture_frame(mesh: &Mesh, corners: [u32; 3], b: Vec2) -> (Vec2, DVec3) {
+    let [p0, p1, p2] = mesh.corners(corners).map(|p| p.as_dvec3());
+    let Some(uvs) = &mesh.uvs else { return (b, p1 - p0) };
+    let [t0, t1, t2] = corners.map(|vertex| uvs[vertex as usize]);
+    let uv = t0 * (1.0 - b.x - b.y) + t1 * b.x + t2 * b.y;
+    // Solve dp = dp/du·du + dp/dv·dv along two edges; only the direction of dp/du matters.
+    let (d1, d2) = ((t1 - t0).as_dvec2(), (t2 - t0).as_dvec2());
+    let determinant = d1.perp_dot(d2);
+    let along_u = ((p1 - p0) * d2.y - (p2 - p0) * d1.y) * determinant.signum();
+    (uv, if determinant == 0.0 { DVec3::ZERO } else { along_u })
+}

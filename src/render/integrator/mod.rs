@@ -1,0 +1,61 @@
+//! How the radiance along a camera ray is found.
+
+mod path;
+mod ppm;
+
+pub use path::PathTracer;
+pub use ppm::{PhotonMapper, Schedule};
+
+pub(super) use path::transmittance;
+
+use super::film::STREAMS;
+use super::sampler::Sampler;
+use crate::math::{Ray, Rgb};
+use std::ops::AddAssign;
+
+/// A way to find radiance. One value serves a whole render, pass after pass.
+pub trait Integrator: Sync {
+    /// Prepares what all camera rays of a pass share.
+    fn begin_pass(&mut self, pass: Pass, counters: &mut Counters);
+
+    /// The radiance that arrives along a camera ray.
+    fn radiance(&self, ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb;
+}
+
+/// One of the passes of a render; all its random numbers follow from it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Pass {
+    /// Counted from 0.
+    pub index: u32,
+    /// The seed of the render.
+    pub seed: u64,
+}
+
+impl Pass {
+    /// The numbers of the camera path through pixel `item`. Passes take turns among the streams of the film.
+    pub fn camera_sampler(&self, item: u64) -> Sampler {
+        Sampler::new(self.seed, self.index % STREAMS, item, self.index / STREAMS)
+    }
+
+    /// The numbers of a photon, counted from 0 in each pass; passes are independent of each other.
+    pub fn photon_sampler(&self, photon: u32) -> Sampler {
+        const PHOTON_STREAMS: u32 = 1 << 31; // apart from those of camera paths
+        Sampler::new(self.seed, PHOTON_STREAMS | self.index, 0, photon)
+    }
+}
+
+/// What was done, for the report.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Counters {
+    /// Rays sent from cameras and surfaces, and towards lights.
+    pub rays: u64,
+    /// Photons emitted.
+    pub photons: u64,
+}
+
+impl AddAssign for Counters {
+    fn add_assign(&mut self, other: Self) {
+        self.rays += other.rays;
+        self.photons += other.photons;
+    }
+}

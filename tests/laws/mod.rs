@@ -1,0 +1,7 @@
+//! What physics and sampling theory promise.
+
+mod light;
+mod scattering;
+mod statistics;
+mod transport;
+pub mod worlds;

@@ -1,0 +1,306 @@
+//! Laws of every bsdf.
+
+use super::statistics::{
+    COLUMNS, ROWS, bin, chi_square, independent_points, integrate_bins, points, significance,
+};
+use super::worlds::{color, diffuse, gray};
+use snell::math::{Rgb, Vec2, Vec3};
+use snell::render::bsdf::{Bsdf, Input, Material, Materials, Transport, fresnel_dielectric};
+use snell::render::geometry::{PrimId, SurfacePoint};
+use snell::render::shape::{MaterialId, SourceId};
+
+/// A point on the plane z = 0 with this shading normal.
+fn surface(ns: Vec3) -> SurfacePoint {
+    let tangent = (Vec3::X - ns * ns.x).normalize();
+    SurfacePoint {
+        p: Vec3::ZERO,
+        p_error: Vec3::ZERO,
+        n: Vec3::Z,
+        ns,
+        tangent,
+        uv: Vec2::ZERO,
+        p_object: Vec3::ZERO,
+        material: MaterialId(0),
+        prim: PrimId(0),
+        source: SourceId(0),
+    }
+}
+
+/// The bsdf of the first of some materials.
+fn bsdf(materials: &[Material]) -> Bsdf {
+    Materials::new(materials.to_vec(), Vec::new()).bsdf(&surface(Vec3::Z))
+}
+
+fn phong(diffuse: f32, specular: f32, shininess: f32) -> Material {
+    Material::Phong { diffuse: gray(diffuse), specular: gray(specular), shininess }
+}
+
+/// White metal whose width of slopes is `alpha`.
+fn metal(alpha: f32) -> Material {
+    Material::Metal { f0: gray(1.0), roughness: gray(alpha.sqrt()) }
+}
+
+fn mix(amount: f32) -> Material {
+    Material::Mix { a: MaterialId(1), b: MaterialId(2), amount: gray(amount) }
+}
+
+/// Every way of scattering into more than one direction.
+fn smooth_bsdfs() -> Vec<(&'static str, Bsdf)> {
+    let bent = Vec3::new(0.5, 0.2, 0.8).normalize();
+    let copper = Material::Metal { f0: color(0.95, 0.64, 0.54), roughness: gray(0.5) };
+    let on_bent = |material| Materials::new(vec![material], Vec::new()).bsdf(&surface(bent));
+    vec![
+        ("diffuse", bsdf(&[diffuse(0.8)])),
+        ("phong 0", bsdf(&[phong(0.0, 1.0, 0.0)])),
+        ("phong 1", bsdf(&[phong(0.3, 0.7, 1.0)])),
+        ("phong 40", bsdf(&[phong(0.5, 0.4, 40.0)])),
+        ("metal 0.2", bsdf(&[metal(0.2)])),
+        ("metal 0.5", bsdf(&[metal(0.5)])),
+        ("metal 1", bsdf(&[metal(1.0)])),
+        ("mix", bsdf(&[mix(0.3), phong(0.5, 0.5, 10.0), copper])),
+        ("bent diffuse", on_bent(diffuse(0.8))),
+        ("bent metal", on_bent(copper)),
+    ]
+}
+
+/// Directions to the viewer: along the normal, slanted, grazing, and from behind.
+fn directions() -> [Vec3; 5] {
+    let at = |degrees: f32, z: f32| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        Vec3::new(sin * 0.8, sin * 0.6, cos * z)
+    };
+    [at(0.0, 1.0), at(35.0, 1.0), at(70.0, 1.0), at(89.0, 1.0), at(50.0, -1.0)]
+}
+
+/// Pairs of random directions in the upper hemisphere.
+fn pairs(n: u32) -> impl Iterator<Item = (Vec3, Vec3)> {
+    let up = |u: Vec2| {
+        let w = snell::math::warp::square_to_uniform_sphere(u);
+        Vec3::new(w.x, w.y, w.z.abs().max(1e-4)).normalize()
+    };
+    points(n).map(move |(u, v)| (up(u), up(Vec2::new(v, (7.0 * u.x + 3.0 * u.y).fract()))))
+}
+
+#[test]
+fn every_smooth_bsdf_draws_what_its_pdf_claims() {
+    let n = 200_000;
+    let bsdfs = smooth_bsdfs();
+    let limit = significance(bsdfs.len() * directions().len());
+    for (name, bsdf) in bsdfs {
+        for wo in directions() {
+            let side = 1.0_f32.copysign(wo.z);
+            let mirrored = |w: Vec3| Vec3::new(w.x, w.y, w.z * side);
+            let mut counts = vec![0.0; ROWS * COLUMNS + 1];
+            for (u, u_lobe) in independent_points(n) {
+                let drawn = bsdf.sample(wo, u, u_lobe, Transport::Radiance);
+                let place = drawn.map(|s| bin(mirrored(s.wi)).expect("light does not pass through"));
+                counts[place.unwrap_or(ROWS * COLUMNS)] += 1.0;
+            }
+
+            let mut expected = integrate_bins(16, |wi| bsdf.pdf(wo, mirrored(wi)));
+            let total: f64 = expected.iter().sum();
+            let lost = counts[ROWS * COLUMNS] / f64::from(n);
+            assert!((total + lost - 1.0).abs() < 4e-3, "{name} along {wo}: pdf {total} + lost {lost}");
+
+            expected.iter_mut().for_each(|share| *share *= f64::from(n));
+            expected.push(counts[ROWS * COLUMNS]);
+            let p = chi_square(&counts, &expected);
+            assert!(p > limit, "{name} along {wo}: p = {p}");
+        }
+    }
+}
+
+#[test]
+fn the_weight_of_a_sample_is_value_over_density() {
+    for (name, bsdf) in smooth_bsdfs() {
+        for wo in directions() {
+            for (u, u_lobe) in points(2_000) {
+                let Some(s) = bsdf.sample(wo, u, u_lobe, Transport::Radiance) else { continue };
+                let (value, pdf) = bsdf.eval_pdf(wo, s.wi);
+                assert!((pdf / s.pdf - 1.0).abs() < 2e-3, "{name} along {wo} to {}: {pdf}, {}", s.wi, s.pdf);
+                for channel in 0..3 {
+                    let error = (value[channel] / pdf - s.weight[channel]).abs();
+                    assert!(error <= 2e-3 * s.weight[channel], "{name} along {wo} to {}", s.wi);
+                }
+                assert!((s.wi.length() - 1.0).abs() < 1e-6);
+            }
+        }
+    }
+}
+
+#[test]
+fn smooth_bsdfs_are_reciprocal_where_normals_are_real() {
+    for (name, bsdf) in smooth_bsdfs().into_iter().filter(|(name, _)| !name.starts_with("bent")) {
+        for (a, b) in pairs(10_000) {
+            let (ab, ba) = (bsdf.eval(a, b).r / b.z, bsdf.eval(b, a).r / a.z);
+            assert!((ab - ba).abs() <= 1e-4 * ab.max(ba), "{name}: {a} {b}: {ab} {ba}");
+        }
+    }
+}
+
+#[test]
+fn no_light_passes_from_one_side_of_the_geometric_normal_to_the_other() {
+    for (name, bsdf) in smooth_bsdfs() {
+        for (a, b) in pairs(10_000) {
+            let below = Vec3::new(b.x, b.y, -b.z);
+            assert!(bsdf.eval(a, below).is_black() && bsdf.pdf(a, below) == 0.0, "{name}");
+            assert!(bsdf.eval(below, a).is_black(), "{name}");
+            assert!(bsdf.eval(a, b).is_valid(), "{name}");
+        }
+    }
+}
+
+/// The mean weight of `n` draws.
+fn albedo(bsdf: &Bsdf, wo: Vec3, n: u32, transport: Transport) -> Rgb {
+    let weights = points(n).filter_map(|(u, u_lobe)| Some(bsdf.sample(wo, u, u_lobe, transport)?.weight));
+    weights.fold(Rgb::BLACK, |sum, weight| sum + weight) / n as f32
+}
+
+#[test]
+fn nothing_reflects_more_than_it_receives() {
+    let glass = |ior| Material::Glass { ior, tint: Rgb::WHITE, absorption: Rgb::BLACK };
+    let lossless =
+        [("diffuse", diffuse(1.0)), ("mirror", Material::Mirror { color: gray(1.0) }), ("glass", glass(1.5))];
+    for wo in directions() {
+        for (name, material) in lossless {
+            let albedo = albedo(&bsdf(&[material]), wo, 20_000, Transport::Importance).r;
+            assert!((albedo - 1.0).abs() < 2e-3, "{name} along {wo}: {albedo}");
+        }
+        for shininess in [0.0, 1.0, 10.0, 1e3, 1e5] {
+            let albedo = albedo(&bsdf(&[phong(0.2, 0.8, shininess)]), wo, 20_000, Transport::Radiance).r;
+            assert!(albedo < 1.001, "phong {shininess} along {wo}: {albedo}");
+        }
+        for alpha in [1e-4, 1.1e-3, 1e-2, 0.1, 0.5, 1.0] {
+            let bsdf = bsdf(&[metal(alpha)]);
+            let albedo = albedo(&bsdf, wo, 20_000, Transport::Radiance).r;
+            assert!(albedo < 1.001, "metal {alpha} along {wo}: {albedo}");
+            assert!(alpha > 0.01 || wo.z.abs() < 0.1 || albedo > 0.99, "metal {alpha} along {wo}: {albedo}");
+            for (u, u_lobe) in points(2_000) {
+                let weight = bsdf.sample(wo, u, u_lobe, Transport::Radiance).map_or(0.0, |s| s.weight.r);
+                assert!((0.0..=1.000_01).contains(&weight), "metal {alpha} along {wo}: {weight}");
+            }
+        }
+    }
+}
+
+#[test]
+fn an_overfull_phong_material_is_scaled_to_what_it_receives() {
+    let albedo = albedo(&bsdf(&[phong(0.9, 0.9, 20.0)]), Vec3::Z, 20_000, Transport::Radiance).r;
+    assert!((0.97..1.001).contains(&albedo), "{albedo}");
+}
+
+#[test]
+fn scattering_survives_grazing_directions() {
+    let materials = [diffuse(1.0), phong(0.5, 0.5, 1e5), metal(1e-2), metal(1.0)];
+    for material in materials {
+        let bsdf = bsdf(&[material]);
+        for cos in [1e-3_f32, 1e-6, 1e-20, 0.0] {
+            let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+            for (u, u_lobe) in points(1_000) {
+                if let Some(s) = bsdf.sample(wo, u, u_lobe, Transport::Radiance) {
+                    assert!(
+                        s.weight.is_valid() && s.pdf > 0.0 && s.pdf.is_finite(),
+                        "{material:?} {cos}: {s:?}"
+                    );
+                    assert!(s.wi.is_finite());
+                }
+            }
+            for (_, wi) in pairs(500) {
+                let (value, pdf) = bsdf.eval_pdf(wo, wi);
+                assert!(
+                    value.is_valid() && pdf >= 0.0 && pdf.is_finite(),
+                    "{material:?} {cos}: {value:?} {pdf}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn fresnel_reflectance_is_exact_at_every_angle() {
+    for eta in [1.0, 1.0 + 1e-6, 1.0 - 1e-6, 1.0001, 1.5, 1.0 / 1.5, 2.42, 1.0 / 2.42] {
+        for i in 0..=10_000 {
+            let cos = f64::from(i) / 10_000.0;
+            let (reflectance, cos_t) = fresnel_dielectric(cos, eta);
+            assert!((0.0..=1.0).contains(&reflectance) && cos_t >= 0.0);
+            assert!((reflectance - fresnel_by_angles(cos, eta)).abs() < 1e-6, "eta {eta}, cos {cos}");
+        }
+    }
+}
+
+/// Fresnel's equations in their form by angles (sine and tangent laws), an independent way to the same number.
+fn fresnel_by_angles(cos: f64, eta: f64) -> f64 {
+    if eta == 1.0 {
+        return 0.0;
+    }
+    let i = cos.acos();
+    let sin_t = i.sin() / eta;
+    if sin_t >= 1.0 {
+        return 1.0;
+    }
+    let t = sin_t.asin();
+    if i < 1e-4 {
+        return ((eta - 1.0) / (eta + 1.0)).powi(2);
+    }
+    let (s, p) = ((i - t).sin() / (i + t).sin(), (i - t).tan() / (i + t).tan());
+    0.5 * (s * s + p * p)
+}
+
+#[test]
+fn glass_of_index_1_is_not_there() {
+    let glass = bsdf(&[Material::Glass { ior: 1.0, tint: Rgb::WHITE, absorption: Rgb::BLACK }]);
+    for wo in directions() {
+        for (u, u_lobe) in points(100) {
+            let s = glass.sample(wo, u, u_lobe, Transport::Radiance).expect("everything passes");
+            assert!((s.wi + wo).abs().max_element() <= 2.4e-7, "{wo} {}", s.wi);
+            assert_eq!(s.weight, Rgb::WHITE);
+        }
+    }
+}
+
+#[test]
+fn refraction_obeys_its_law_and_reverses() {
+    let glass = bsdf(&[Material::Glass { ior: 1.5, tint: Rgb::WHITE, absorption: Rgb::BLACK }]);
+    for wo in directions() {
+        let ior = if wo.z > 0.0 { 1.5 } else { 1.0 / 1.5 };
+        let s = glass.sample(wo, Vec2::ZERO, 0.999_999, Transport::Radiance).expect("something leaves");
+        let sines = |w: Vec3| w.truncate().length();
+        if s.eta != 1.0 {
+            assert!((sines(wo) - ior * sines(s.wi)).abs() < 1e-6);
+            assert!((s.weight.r * ior * ior - 1.0).abs() < 1e-6);
+            let back = glass.sample(s.wi, Vec2::ZERO, 0.999_999, Transport::Radiance).expect("it goes back");
+            assert!((back.wi - wo).length() < 1e-5);
+        }
+    }
+}
+
+#[test]
+fn a_mirror_with_an_interpolated_normal_never_sends_light_into_the_surface() {
+    let bent = surface(Vec3::new(0.7, 0.0, 0.714).normalize());
+    let mirror = Materials::new(vec![Material::Mirror { color: gray(1.0) }], Vec::new()).bsdf(&bent);
+    for (wo, _) in pairs(1_000) {
+        let s = mirror.sample(wo, Vec2::ZERO, 0.5, Transport::Radiance).expect("mirrors reflect");
+        assert!(s.wi.z > 0.0, "{wo} to {}", s.wi);
+    }
+}
+
+#[test]
+fn directions_stay_unit_vectors_over_ten_thousand_bounces() {
+    let mirror = bsdf(&[Material::Mirror { color: gray(1.0) }]);
+    let mut wo = Vec3::new(0.6, 0.1, 0.7).normalize();
+    for _ in 0..10_000 {
+        wo = mirror.sample(wo, Vec2::ZERO, 0.5, Transport::Radiance).expect("mirrors reflect").wi;
+        assert!((wo.length() - 1.0).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn scalars_take_the_mean_of_the_channels() {
+    let by_color = Material::Mix {
+        a: MaterialId(1),
+        b: MaterialId(2),
+        amount: Input::Constant(Rgb::new(0.0, 0.3, 0.6)),
+    };
+    let value = |materials: [Material; 3]| bsdf(&materials).eval(Vec3::Z, Vec3::Z).r;
+    assert_eq!(value([by_color, diffuse(1.0), diffuse(0.0)]), value([mix(0.3), diffuse(1.0), diffuse(0.0)]));
+}

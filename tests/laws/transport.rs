@@ -1,0 +1,185 @@
+//! Laws of whole pictures.
+
+use super::worlds::{
+    camera, cornell, cuboid, diffuse, emissive, empty, gray, mean, path_tracing, quad, sphere, trace,
+};
+use snell::math::{Rgb, Vec3};
+use snell::render::bsdf::Material;
+use snell::render::film::{Film, Region};
+use snell::render::light::{Environment, EnvironmentRadiance, Light};
+use snell::render::shape::MaterialId;
+use snell::render::{Monitor, Progress, Settings, Stop, StoppedBy, World, render};
+
+/// Emits as much as it reflects of white: `share` of the light.
+fn glowing(share: f32) -> [Material; 3] {
+    let light = Material::Emissive { radiance: Rgb::WHITE, two_sided: true };
+    [Material::Mix { a: MaterialId(1), b: MaterialId(2), amount: gray(share) }, diffuse(1.0), light]
+}
+
+/// Whether every pixel lies within `spread` of 1 and their mean within `tolerance`.
+fn assert_all_one(film: &Film, tolerance: f64, spread: f32) {
+    let mean = mean(film);
+    assert!((mean - 1.0).abs() <= tolerance, "mean {mean}");
+    for (i, pixel) in film.mean().iter().enumerate() {
+        assert!((pixel.mean() - 1.0).abs() <= spread, "pixel {i} is {pixel:?}");
+    }
+}
+
+fn uniform_sky(radiance: f32) -> Option<Environment> {
+    let radiance = EnvironmentRadiance::Constant(Rgb::gray(radiance));
+    Some(Environment { radiance, scale: 1.0, rotation: 0.0 })
+}
+
+#[test]
+fn in_a_closed_room_radiance_is_emission_over_one_minus_albedo() {
+    // e = s, ρ = 1 − s: the radiance is 1 whatever the share.
+    for share in [0.5, 0.1] {
+        let mut parts = empty(camera(Vec3::new(0.2, 0.1, 0.3), Vec3::new(0.3, -0.2, -1.0), 1.0, 16));
+        parts.materials = glowing(share).into();
+        parts.meshes = cuboid(Vec3::splat(-1.0), Vec3::new(1.0, 2.0, 1.0), true, 0);
+        assert_all_one(&trace(parts, 256, 1_000), 5e-3, 0.25);
+    }
+}
+
+#[test]
+fn in_a_closed_sphere_too() {
+    let mut parts = empty(camera(Vec3::new(0.2, 0.1, 0.3), Vec3::NEG_Z, 1.0, 16));
+    parts.materials = glowing(0.5).into();
+    parts.solids = vec![sphere(Vec3::ZERO, 1.0, 0)];
+    assert_all_one(&trace(parts, 256, 1_000), 5e-3, 0.25);
+}
+
+#[test]
+fn a_point_light_in_a_closed_sphere() {
+    // Intensity π gives the irradiance π everywhere; albedo 0.5 sends on 0.5, and all bounces add up to 1.
+    for positions in [vec![Vec3::ZERO], vec![Vec3::ZERO; 4]] {
+        let mut parts = empty(camera(Vec3::new(0.2, 0.1, 0.3), Vec3::NEG_Z, 1.0, 16));
+        parts.materials = vec![diffuse(0.5)];
+        parts.solids = vec![sphere(Vec3::ZERO, 1.0, 0)];
+        let intensity = Rgb::gray(std::f32::consts::PI / positions.len() as f32);
+        parts.lights = positions.into_iter().map(|p| Light::Point { p, intensity }).collect();
+        assert_all_one(&trace(parts, 256, 1_000), 5e-3, 0.1);
+    }
+}
+
+#[test]
+fn mirrors_and_matt_walls_share_a_closed_sphere() {
+    // Emission 0.25, diffuse 0.25, mirror 0.5.
+    let mut parts = empty(camera(Vec3::new(0.2, 0.1, 0.3), Vec3::NEG_Z, 1.0, 16));
+    let mix = |a, b, amount| Material::Mix { a: MaterialId(a), b: MaterialId(b), amount: gray(amount) };
+    let mirror = Material::Mirror { color: gray(1.0) };
+    let light = Material::Emissive { radiance: Rgb::WHITE, two_sided: true };
+    parts.materials = vec![mix(1, 4, 0.25), mix(2, 3, 2.0 / 3.0), diffuse(1.0), mirror, light];
+    parts.solids = vec![sphere(Vec3::ZERO, 1.0, 0)];
+    assert_all_one(&trace(parts, 256, 1_000), 5e-3, 0.3);
+}
+
+#[test]
+fn what_loses_nothing_is_invisible_under_a_uniform_sky() {
+    let materials = [
+        diffuse(1.0),
+        Material::Mirror { color: gray(1.0) },
+        Material::Metal { f0: gray(1.0), roughness: gray(0.02) },
+        Material::Glass { ior: 1.5, tint: Rgb::WHITE, absorption: Rgb::BLACK },
+        Material::Glass { ior: 1.0, tint: Rgb::WHITE, absorption: Rgb::BLACK },
+    ];
+    for material in materials {
+        let mut parts = empty(camera(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z, 0.4, 16));
+        parts.materials = vec![material];
+        parts.solids = vec![sphere(Vec3::ZERO, 1.0, 0)];
+        parts.environment = uniform_sky(1.0);
+        let film = trace(parts, 64, 1_000);
+        assert_all_one(&film, 5e-3, 0.35);
+    }
+}
+
+#[test]
+fn light_fades_in_coloured_glass() {
+    let mut parts = empty(camera(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z, 1e-3, 4));
+    let absorption = Rgb::new(0.0, 0.5, 2.0);
+    parts.materials = vec![Material::Glass { ior: 1.0, tint: Rgb::new(0.9, 1.0, 1.0), absorption }];
+    parts.meshes = cuboid(Vec3::splat(-1.0), Vec3::splat(1.0), false, 0);
+    parts.environment = uniform_sky(1.0);
+    let pixel = trace(parts, 4, 10).mean()[5];
+    let expected = Rgb::new(0.81, (-1.0_f32).exp(), (-4.0_f32).exp());
+    for channel in 0..3 {
+        assert!((pixel[channel] / expected[channel] - 1.0).abs() < 1e-3, "{pixel:?} for {expected:?}");
+    }
+}
+
+#[test]
+fn depth_counts_vertices_up_to_the_light() {
+    let lit_floor = |max_depth| {
+        let mut parts = empty(camera(Vec3::Y, Vec3::NEG_Y, 0.1, 4));
+        parts.materials = vec![diffuse(1.0)];
+        parts.meshes = vec![quad(Vec3::new(-1.0, 0.0, -1.0), Vec3::Z * 2.0, Vec3::X * 2.0, 0)];
+        parts.lights = vec![Light::Point { p: Vec3::Y, intensity: Rgb::WHITE }];
+        mean(&trace(parts, 1, max_depth))
+    };
+    assert_eq!(lit_floor(1), 0.0);
+    assert!(lit_floor(2) > 0.0);
+    assert_eq!(lit_floor(2), lit_floor(3));
+}
+
+#[test]
+fn a_lamp_behind_a_wall_leaks_no_light() {
+    let mut parts = empty(camera(Vec3::new(0.0, 0.5, 0.9), Vec3::NEG_Z, 1.0, 16));
+    parts.materials = vec![diffuse(0.8), emissive(10.0)];
+    parts.meshes = cuboid(Vec3::splat(-1.0), Vec3::splat(1.0), true, 0);
+    parts.solids = vec![sphere(Vec3::new(0.0, 0.0, -1.2), 0.199, 1)];
+    assert_eq!(mean(&trace(parts, 16, 20)), 0.0);
+}
+
+fn bits(film: &Film) -> Vec<[u32; 3]> {
+    film.mean().iter().map(|pixel| pixel.to_array().map(f32::to_bits)).collect()
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    let with_threads = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| trace(cornell(40, true), 4, 32))
+    };
+    assert_eq!(bits(&with_threads(1)), bits(&with_threads(2)));
+}
+
+#[test]
+fn a_crop_shows_the_same_bits_as_the_whole() {
+    let world = World::new(cornell(32, true));
+    let whole = render(&world, &path_tracing(2, 8), &()).film;
+    let crop = Region { x: 5, y: 9, width: 20, height: 18 };
+    let part = render(&world, &Settings { crop: Some(crop), ..path_tracing(2, 8) }, &()).film;
+    let expected: Vec<_> = crop.pixels().map(|[x, y]| bits(&whole)[(y * 32 + x) as usize]).collect();
+    assert_eq!(bits(&part), expected);
+}
+
+/// Asks to stop once so many passes are done.
+struct StopAfter(std::sync::atomic::AtomicU32);
+
+impl Monitor for StopAfter {
+    fn pass_done(&self, _: &Progress) {
+        self.0.fetch_sub(1, std::sync::atomic::Ordering::Relaxed);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.load(std::sync::atomic::Ordering::Relaxed) == 0
+    }
+}
+
+#[test]
+fn a_render_stops_when_told_and_keeps_whole_passes() {
+    let world = World::new(cornell(16, false));
+    let stopped = |stop, monitor: &dyn Monitor| {
+        let outcome = render(&world, &Settings { stop, ..path_tracing(1, 8) }, monitor);
+        (outcome.stopped_by, outcome.stats.passes)
+    };
+    let passes = Stop { passes: Some(3), ..Stop::default() };
+    assert_eq!(stopped(passes, &()), (StoppedBy::Passes, 3));
+    assert_eq!(stopped(Stop::default(), &()), (StoppedBy::Passes, 1));
+    let time = Stop { seconds: Some(0.0), ..Stop::default() };
+    assert_eq!(stopped(time, &()), (StoppedBy::Time, 1));
+    let error = Stop { error: Some(10.0), ..Stop::default() };
+    assert_eq!(stopped(error, &()), (StoppedBy::Error, 16));
+    let endless = Stop { passes: Some(u32::MAX), ..Stop::default() };
+    assert_eq!(stopped(endless, &StopAfter(5.into())), (StoppedBy::Cancelled, 5));
+}

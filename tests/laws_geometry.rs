@@ -1,0 +1,537 @@
+//! What rays may rely on: no leaks, no order dependence, the tree as if every primitive had been tried.
+
+use snell::math::{DAffine3, DVec2, DVec3, Ray, Vec2, Vec3};
+use snell::render::geometry::{Geometry, Hit, PrimId, SurfacePoint};
+use snell::render::shape::triangle::{ShearedRay, TriangleBlock};
+use snell::render::shape::{MaterialId, Mesh, Profile, Solid, SolidKind, SourceId};
+
+/// Numbers that look random, the same on every run (Vigna 2015, splitmix64).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut x = self.0;
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    }
+
+    fn unit(&mut self) -> f32 {
+        (self.next() >> 40) as f32 / (1_u64 << 24) as f32
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.next() % count as u64) as usize
+    }
+
+    /// A point of the cube [−1, 1]³.
+    fn point(&mut self) -> Vec3 {
+        Vec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        snell::math::warp::square_to_uniform_sphere(Vec2::new(self.unit(), self.unit()))
+    }
+
+    fn axis(&mut self) -> Vec3 {
+        let axis = Vec3::AXES[self.below(3)];
+        if self.below(2) == 0 { axis } else { -axis }
+    }
+}
+
+fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
+    Mesh {
+        positions,
+        triangles,
+        normals: None,
+        uvs: None,
+        material: MaterialId(0),
+        object_from_world: DAffine3::IDENTITY,
+        source: SourceId(0),
+    }
+}
+
+fn solid(kind: SolidKind, world_from_object: DAffine3) -> Solid {
+    let texture_from_object = DAffine3::IDENTITY;
+    Solid { kind, world_from_object, texture_from_object, material: MaterialId(0), source: SourceId(0) }
+}
+
+fn scene(mesh: Mesh) -> Geometry {
+    Geometry::build(vec![mesh], Vec::new())
+}
+
+/// A closed sphere of `rows × columns` faces, its radius given by longitude and row; normals outwards.
+fn sphere(rows: u32, columns: u32, radius: impl Fn(u32, u32) -> f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    use std::f32::consts::{PI, TAU};
+    let mut positions = vec![Vec3::Y * radius(0, 0), Vec3::NEG_Y * radius(rows, 0)];
+    for row in 1..rows {
+        for column in 0..columns {
+            let (theta, phi) = (PI * row as f32 / rows as f32, TAU * column as f32 / columns as f32);
+            let dir = Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin());
+            positions.push(dir * radius(row, column));
+        }
+    }
+    let at = |row: u32, column: u32| match row {
+        0 => 0,
+        row if row == rows => 1,
+        row => 2 + (row - 1) * columns + column % columns,
+    };
+    let mut triangles = Vec::new();
+    for row in 0..rows {
+        for column in 0..columns {
+            let [a, b] = [at(row, column), at(row, column + 1)];
+            let [c, d] = [at(row + 1, column), at(row + 1, column + 1)];
+            if a != b {
+                triangles.push([a, b, c]);
+            }
+            if c != d {
+                triangles.push([b, d, c]);
+            }
+        }
+    }
+    (positions, triangles)
+}
+
+/// The cube [−1, 1]³, each face of `side²` squares; vertices shared.
+fn cube(side: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    let mut index = std::collections::BTreeMap::new();
+    let mut positions = Vec::new();
+    let mut triangles = Vec::new();
+    for axis in 0..3 {
+        for face in [0, side] {
+            let mut vertex = |i: u32, j: u32| {
+                let mut key = [0; 3];
+                (key[axis], key[(axis + 1) % 3], key[(axis + 2) % 3]) = (face, i, j);
+                *index.entry(key).or_insert_with(|| {
+                    positions.push(Vec3::from(key.map(|x| x as f32 * 2.0 / side as f32 - 1.0)));
+                    positions.len() as u32 - 1
+                })
+            };
+            for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
+                let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
+                let quad = [[a, b, c], [a, c, d]];
+                triangles.extend(if face == 0 { quad.map(|[a, b, c]| [a, c, b]) } else { quad });
+            }
+        }
+    }
+    (positions, triangles)
+}
+
+/// Closed meshes with the point inside that rays start near: spiky, round, flat-sided, far away, tiny and huge.
+fn closed_meshes() -> Vec<(&'static str, Mesh, Vec3)> {
+    let mut random = Random(1);
+    let radii: Vec<f32> = (0..17 * 16).map(|_| 1.0 + 5.0 * random.unit()).collect();
+    let spiky = sphere(16, 16, |row, column| radii[(row * 16 + column) as usize]);
+    let round = sphere(60, 60, |_, _| 1.0);
+    let cube = cube(32);
+    let placed = |(positions, triangles): &(Vec<Vec3>, Vec<[u32; 3]>), scale: f32, shift: Vec3| {
+        (mesh(positions.iter().map(|p| *p * scale + shift).collect(), triangles.clone()), shift)
+    };
+    let far = Vec3::new(148_376.0, 1234.0, -223_423.0);
+    [
+        ("spiky", placed(&spiky, 1.0, Vec3::ZERO)),
+        ("round", placed(&round, 1.0, Vec3::ZERO)),
+        ("round, far", placed(&round, 8.0, far)),
+        ("round, tiny", placed(&round, 1e-6, Vec3::ZERO)),
+        ("round, huge", placed(&round, 1e6, Vec3::ZERO)),
+        ("round, small and far", placed(&round, 0.2, Vec3::splat(1e4))),
+        ("cube", placed(&cube, 1.0, Vec3::ZERO)),
+        ("cube, far", placed(&cube, 1.0, Vec3::new(1000.0, 0.0, -333.0))),
+    ]
+    .map(|(name, (mesh, center))| (name, mesh, center))
+    .into()
+}
+
+/// A ray from near `center`, a quarter each: anywhere, at a vertex, at an edge, along an axis through a vertex's coordinate.
+fn aimed_ray(mesh: &Mesh, center: Vec3, i: usize, random: &mut Random) -> Ray {
+    let size = (mesh.positions[0] - center).length() * 0.2;
+    let o = center + random.point() * size;
+    let [a, b, _] = mesh.corners(mesh.triangles[random.below(mesh.triangles.len())]);
+    match i % 4 {
+        0 => Ray::new(o, random.direction()),
+        1 => Ray::new(o, a - o),
+        2 => Ray::new(o, a.lerp(b, random.unit()) - o),
+        _ => {
+            let axis = random.axis();
+            let near = |p: Vec3| (p - center).abs().max_element() < size;
+            let through = Vec3::select(axis.abs().cmpgt(Vec3::splat(0.5)), o, a);
+            Ray::new(if near(through) { through } else { o }, axis)
+        }
+    }
+}
+
+/// The nearest hit by trying every triangle.
+struct BruteForce(Vec<TriangleBlock>);
+
+impl BruteForce {
+    fn new(mesh: &Mesh) -> Self {
+        let corners: Vec<_> =
+            mesh.triangles.iter().map(|triangle| mesh.corners(*triangle)).zip(0..).collect();
+        Self(corners.chunks(4).map(TriangleBlock::new).collect())
+    }
+
+    fn closest_hit(&self, ray: &Ray) -> Option<(u32, u32)> {
+        let sheared = ShearedRay::new(ray);
+        let mut best: Option<(f32, u32)> = None;
+        for block in &self.0 {
+            block.intersect(&sheared, |prim, hit| {
+                let before = best.is_none_or(|(t, other)| hit.t < t || hit.t == t && prim < other);
+                if 0.0 < hit.t && hit.t < ray.t_max && before {
+                    best = Some((hit.t, prim));
+                }
+            });
+        }
+        best.map(|(t, prim)| (t.to_bits(), prim))
+    }
+}
+
+fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
+    hit.map(|hit| (hit.t.to_bits(), hit.prim.0))
+}
+
+#[test]
+fn no_ray_escapes_a_closed_mesh() {
+    for (name, mesh, center) in closed_meshes() {
+        let mut random = Random(2);
+        let rays: Vec<_> = (0..50_000).map(|i| aimed_ray(&mesh, center, i, &mut random)).collect();
+        let geometry = scene(mesh);
+        let escaped = rays.iter().filter(|ray| geometry.closest_hit(ray).is_none()).count();
+        assert_eq!(escaped, 0, "{name}");
+    }
+}
+
+#[test]
+fn aimed_rays_tell_a_leaky_triangle_test_from_a_tight_one() {
+    let (positions, triangles) = sphere(20, 20, |_, _| 1.0);
+    let mesh = mesh(positions, triangles);
+    let mut random = Random(3);
+    let rays: Vec<_> = (0..4000).map(|i| aimed_ray(&mesh, Vec3::ZERO, i, &mut random)).collect();
+    let leaky =
+        |ray: &Ray| mesh.triangles.iter().any(|triangle| naive_intersect(mesh.corners(*triangle), ray));
+    let escaped = rays.iter().filter(|ray| !leaky(ray)).count();
+    assert!(escaped > 10, "the rays are aimed too badly to find a leak: {escaped}");
+}
+
+/// Möller and Trumbore's test (1997) as it is mostly written: edges decided in single precision, each triangle alone.
+fn naive_intersect([a, b, c]: [Vec3; 3], ray: &Ray) -> bool {
+    let (e1, e2) = (b - a, c - a);
+    let h = ray.d.cross(e2);
+    let f = 1.0 / e1.dot(h);
+    let s = ray.o - a;
+    let u = f * s.dot(h);
+    let q = s.cross(e1);
+    let v = f * ray.d.dot(q);
+    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && f * e2.dot(q) > 0.0
+}
+
+#[test]
+fn the_tree_finds_what_trying_every_triangle_finds() {
+    for (name, mesh, center) in closed_meshes() {
+        let brute_force = BruteForce::new(&mesh);
+        let mut random = Random(4);
+        let rays: Vec<_> = (0..2_000).map(|i| aimed_ray(&mesh, center, i, &mut random)).collect();
+        let geometry = scene(mesh);
+        for ray in rays {
+            let found = bits(geometry.closest_hit(&ray));
+            assert_eq!(found, brute_force.closest_hit(&ray), "{name}: {ray:?}");
+        }
+    }
+}
+
+#[test]
+fn any_hit_agrees_with_closest_hit() {
+    let meshes = closed_meshes();
+    for (name, mesh, center) in meshes {
+        let mut random = Random(5);
+        let rays: Vec<_> = (0..20_000).map(|i| aimed_ray(&mesh, center, i, &mut random)).collect();
+        let geometry = scene(mesh);
+        for ray in rays {
+            let t = geometry.closest_hit(&ray).expect("the mesh is closed").t;
+            let until = |t_max| geometry.any_hit(&Ray { t_max, ..ray });
+            assert!(!until(t) && until(t.next_up()), "{name}: {ray:?} at {t}");
+        }
+    }
+}
+
+/// Small scenes that break trees: soups, grids with everything in planes, fans, nested scales, flat ones, tiny ones.
+fn awkward_scene(i: usize, random: &mut Random) -> Mesh {
+    let count = 1 + random.below(120);
+    let soup = |random: &mut Random, size: f32| {
+        let corners = (0..count).flat_map(|_| {
+            let center = random.point();
+            [0; 3].map(|_| center + random.point() * size)
+        });
+        corners.collect::<Vec<_>>()
+    };
+    let positions: Vec<Vec3> = match i % 7 {
+        0 => soup(random, 0.1),
+        1 => soup(random, 1.0),
+        2 => soup(random, 0.3).iter().map(|p| (*p * 4.0).round() / 4.0).collect(),
+        3 => soup(random, 0.3).iter().map(|p| *p * Vec3::new(1.0, 0.0, 1.0)).collect(),
+        4 => soup(random, 0.5)
+            .iter()
+            .enumerate()
+            .map(|(i, p)| if i % 3 == 0 { Vec3::ZERO } else { *p })
+            .collect(),
+        5 => soup(random, 0.3).iter().enumerate().map(|(i, p)| *p * 0.8_f32.powi(i as i32 / 3)).collect(),
+        _ => soup(random, 0.01)
+            .iter()
+            .enumerate()
+            .map(|(i, p)| if i % 3 == 0 { *p * 100.0 } else { *p })
+            .collect(),
+    };
+    let triangles = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
+    let area = |triangle: &[u32; 3]| {
+        snell::render::shape::triangle::cross_of_edges(triangle.map(|i| positions[i as usize])).length()
+    };
+    let triangles = triangles.filter(|triangle| area(triangle) > 0.0).collect();
+    mesh(positions, triangles)
+}
+
+#[test]
+fn the_tree_survives_awkward_scenes() {
+    let mut random = Random(6);
+    for i in 0..210 {
+        let mesh = awkward_scene(i, &mut random);
+        let brute_force = BruteForce::new(&mesh);
+        let corners = mesh.positions.clone();
+        let geometry = scene(mesh);
+        for j in 0..500 {
+            // Half of the rays run along axes, some exactly through coordinates of the scene, with zeros of both signs.
+            let o = if j % 3 == 0 {
+                corners[random.below(corners.len())] + random.axis() * 2.0
+            } else {
+                random.point() * 2.0
+            };
+            let zero = if random.below(2) == 0 { 0.0 } else { -0.0 };
+            let axis = random.axis();
+            let d = if j % 2 == 0 {
+                random.direction()
+            } else {
+                Vec3::select(axis.cmpeq(Vec3::ZERO), Vec3::splat(zero), axis)
+            };
+            let ray = Ray::new(o, d);
+            assert_eq!(bits(geometry.closest_hit(&ray)), brute_force.closest_hit(&ray), "scene {i}: {ray:?}");
+        }
+    }
+}
+
+#[test]
+fn an_empty_scene_is_missed() {
+    let geometry = Geometry::build(Vec::new(), Vec::new());
+    let ray = Ray::new(Vec3::ZERO, Vec3::X);
+    assert!(geometry.closest_hit(&ray).is_none() && !geometry.any_hit(&ray) && geometry.bounds().is_empty());
+}
+
+#[test]
+fn the_lowest_of_coplanar_duplicates_wins() {
+    let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+    let geometry = scene(mesh(corners, vec![[0, 1, 2]; 100_000]));
+    let mut random = Random(7);
+    for _ in 0..20 {
+        let o = Vec3::new(random.unit() * 0.5, random.unit() * 0.5, 1.0);
+        assert_eq!(geometry.closest_hit(&Ray::new(o, Vec3::NEG_Z)).map(|hit| hit.prim), Some(PrimId(0)));
+    }
+}
+
+#[test]
+fn slivers_do_not_explode_the_tree() {
+    use snell::render::accel::{Items, build, partition};
+    let mut random = Random(8);
+    let triangles: Vec<_> = (0..4_000)
+        .map(|_| {
+            let (a, b) = (random.point(), random.point());
+            [a, b, b + random.point() * 1e-3]
+        })
+        .collect();
+    let partition = partition(&Items { triangles: &triangles, boxes: &[] });
+    let references = partition.root.references();
+    assert!(references <= build::reference_limit(triangles.len()), "{references} references");
+    assert!(partition.root.depth() <= build::depth_limit(triangles.len()));
+    let positions: Vec<_> = triangles.iter().flatten().copied().collect();
+    let indices = (0..4_000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let mesh = mesh(positions, indices);
+    let brute_force = BruteForce::new(&mesh);
+    let geometry = scene(mesh);
+    for _ in 0..2_000 {
+        let ray = Ray::new(random.point(), random.direction());
+        assert_eq!(bits(geometry.closest_hit(&ray)), brute_force.closest_hit(&ray));
+    }
+}
+
+#[test]
+fn rays_with_nan_or_infinity_miss() {
+    let (positions, triangles) = sphere(20, 20, |_, _| 1.0);
+    let shapes =
+        vec![solid(SolidKind::Sphere, DAffine3::IDENTITY), solid(SolidKind::Plane, DAffine3::IDENTITY)];
+    let geometry = Geometry::build(vec![mesh(positions, triangles)], shapes);
+    let mut random = Random(9);
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for field in 0..6 {
+            for _ in 0..100 {
+                let mut ray = Ray::new(random.point(), random.direction());
+                if field < 3 {
+                    ray.o[field] = bad
+                } else {
+                    ray.d[field - 3] = bad
+                }
+                assert!(geometry.closest_hit(&ray).is_none() && !geometry.any_hit(&ray));
+            }
+        }
+        let ray = Ray { t_max: if bad > 0.0 { f32::NAN } else { bad }, ..Ray::new(Vec3::ZERO, Vec3::X) };
+        assert!(geometry.closest_hit(&ray).is_none() && !geometry.any_hit(&ray));
+    }
+    assert!(geometry.closest_hit(&Ray::new(Vec3::ZERO, Vec3::ZERO)).is_none());
+}
+
+#[test]
+fn rays_leave_a_mesh_cleanly_at_any_place_and_size() {
+    let far = Vec3::new(148_376.0, 1234.0, -223_423.0);
+    // Faces of the cube that is shifted by its own half lie in coordinate planes, where offsets of coordinates vanish.
+    let near = [1.0, 1e-4, 1e6].map(|scale| (scale, Vec3::splat(scale)));
+    let centered = [1.0, 1e-4, 1e-6, 1e6].map(|scale| (scale, Vec3::ZERO));
+    // Farther away, points near an edge of a cube round onto it, and rays inwards rightly leave there.
+    let distant = [(1.0, Vec3::splat(1e4)), (100.0, Vec3::new(1e6, 0.0, -1e6)), (2.0, far)];
+    let round = sphere(40, 40, |_, _| 1.0);
+    let cubes = [cube(8), cube(1)];
+    let all = near.into_iter().chain(centered);
+    let cases = all.clone().flat_map(|place| cubes.iter().map(move |shape| (shape, place)));
+    for ((positions, triangles), (scale, shift)) in
+        cases.chain(all.chain(distant).map(|place| (&round, place)))
+    {
+        let positions = positions.iter().map(|p| *p * scale + shift).collect();
+        let geometry = scene(mesh(positions, triangles.clone()));
+        let found = self_hits_and_leaks(&geometry, shift, scale, |point, dir| point.spawn(dir));
+        assert_eq!(found, (0, 0), "{} triangles, scale {scale}, shift {shift}", triangles.len());
+    }
+}
+
+#[test]
+fn a_fixed_offset_would_leak() {
+    let (positions, triangles) = sphere(40, 40, |_, _| 1e-4);
+    let geometry = scene(mesh(positions, triangles));
+    let fixed = |point: &SurfacePoint, dir: Vec3| Ray::new(point.p + dir * 1e-4, dir);
+    let (_, leaks) = self_hits_and_leaks(&geometry, Vec3::ZERO, 1e-4, fixed);
+    assert!(leaks > 1000, "only {leaks} leaks");
+}
+
+/// Spawns a ray outwards, which must miss, and one inwards, which must hit, from points of a convex closed surface.
+fn self_hits_and_leaks(
+    geometry: &Geometry,
+    center: Vec3,
+    scale: f32,
+    spawn: impl Fn(&SurfacePoint, Vec3) -> Ray,
+) -> (usize, usize) {
+    let mut random = Random(10);
+    let (mut self_hits, mut leaks) = (0, 0);
+    for _ in 0..20_000 {
+        let ray = Ray::new(center + random.direction() * scale * 3.0, Vec3::ZERO);
+        let ray = Ray { d: center + random.point() * scale * 0.5 - ray.o, ..ray };
+        let Some(hit) = geometry.closest_hit(&ray) else { continue };
+        let point = geometry.surface_point(&ray, &hit);
+        let dir = random.direction();
+        let outwards = if dir.dot(point.n) < 0.0 { -dir } else { dir };
+        self_hits += usize::from(geometry.any_hit(&spawn(&point, outwards)));
+        leaks += usize::from(!geometry.any_hit(&spawn(&point, -outwards)));
+    }
+    (self_hits, leaks)
+}
+
+fn solid_scene(kind: SolidKind, world_from_object: DAffine3) -> Geometry {
+    Geometry::build(Vec::new(), vec![solid(kind, world_from_object)])
+}
+
+fn ball(center: DVec3, radius: f64) -> DAffine3 {
+    DAffine3::from_translation(center) * DAffine3::from_scale(DVec3::splat(radius))
+}
+
+#[test]
+fn small_and_distant_spheres_are_hit_where_they_are() {
+    let mut random = Random(11);
+    for exponent in 1..=6 {
+        let distance = 10_f32.powi(exponent);
+        for _ in 0..5_000 {
+            let o = random.direction() * distance;
+            // Aim anywhere in a disk somewhat larger than the sphere.
+            let d = (random.point() * 1.2 - o).normalize();
+            let geometry = solid_scene(SolidKind::Sphere, DAffine3::IDENTITY);
+            let found = geometry.closest_hit(&Ray::new(o, d)).map(|hit| f64::from(hit.t));
+            let (o, d) = (o.as_dvec3(), d.as_dvec3());
+            let along = -o.dot(d) / d.length_squared();
+            let miss = o.cross(d).length() / d.length();
+            if (miss - 1.0).abs() > 1e-9 * f64::from(distance) {
+                assert_eq!(found.is_some(), miss < 1.0, "at distance {distance}, passing by at {miss}");
+            }
+            if let Some(t) = found.filter(|_| miss < 0.999) {
+                let expected = along - (1.0 - miss * miss).sqrt() / d.length();
+                assert!((t - expected).abs() <= 4.0 * f64::from(f32::EPSILON) * expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_sphere_as_large_as_a_world_is_a_good_floor() {
+    for radius in [1e5, 1e6, 1e7, 1e8] {
+        let geometry = solid_scene(SolidKind::Sphere, ball(DVec3::new(0.0, -radius, 0.0), radius));
+        let hit = geometry.closest_hit(&Ray::new(Vec3::Y, Vec3::NEG_Y)).expect("the floor is below");
+        assert!((hit.t - 1.0).abs() <= 1e-6, "radius {radius}: {}", hit.t);
+    }
+}
+
+#[test]
+fn rays_leave_solids_cleanly() {
+    let squeezed = DAffine3::from_scale(DVec3::new(3.0, 0.2, -1.0));
+    let turned = DAffine3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 1.0);
+    for (name, kind, world_from_object) in [
+        ("sphere", SolidKind::Sphere, DAffine3::IDENTITY),
+        ("tiny sphere", SolidKind::Sphere, ball(DVec3::ZERO, 1e-6)),
+        ("far sphere", SolidKind::Sphere, ball(DVec3::new(1e6, 0.0, -1e6), 100.0)),
+        ("squeezed sphere", SolidKind::Sphere, turned * squeezed),
+        ("egg", SolidKind::Revolve(egg()), turned),
+    ] {
+        let (center, scale) =
+            (world_from_object.translation.as_vec3(), world_from_object.matrix3.x_axis.length() as f32);
+        let geometry = solid_scene(kind, world_from_object);
+        let (self_hits, leaks) = self_hits_and_leaks(&geometry, center, scale, |point, dir| point.spawn(dir));
+        assert_eq!((self_hits, leaks), (0, 0), "{name}");
+    }
+}
+
+#[test]
+fn planes_are_met_at_grazing_angles() {
+    let geometry = solid_scene(SolidKind::Plane, DAffine3::IDENTITY);
+    for slope in [1e-1_f32, 1e-3, 1e-5, 1e-7] {
+        let ray = Ray::new(Vec3::new(0.0, 0.0, 1.0), Vec3::new(1.0, 0.0, -slope));
+        let hit = geometry.closest_hit(&ray).expect("the ray descends");
+        assert!((f64::from(hit.t) * f64::from(slope) - 1.0).abs() <= f64::from(f32::EPSILON));
+        let point = geometry.surface_point(&ray, &hit);
+        assert!(point.p.z == 0.0 && point.p.is_finite() && point.tangent.is_finite());
+    }
+    assert!(geometry.closest_hit(&Ray::new(Vec3::Z, Vec3::X)).is_none());
+    assert!(geometry.closest_hit(&Ray::new(Vec3::ZERO, Vec3::X)).is_none());
+}
+
+/// A convex closed profile from the bottom of the axis to the top.
+fn egg() -> Profile {
+    let point = DVec2::new;
+    Profile {
+        pieces: vec![
+            [point(0.0, -1.0), point(0.5, -1.0), point(0.8, -0.5), point(0.8, 0.0)],
+            [point(0.8, 0.0), point(0.8, 0.6), point(0.4, 1.2), point(0.0, 1.2)],
+        ],
+    }
+}
+
+#[test]
+fn no_ray_escapes_an_egg() {
+    let geometry = solid_scene(SolidKind::Revolve(egg()), ball(DVec3::new(10.0, -3.0, 7.0), 2.0));
+    let mut random = Random(13);
+    for i in 0..20_000 {
+        let mut d = random.direction();
+        d.y *= [1.0, 0.0, 1e-7, 1e-12][i % 4];
+        let o = Vec3::new(10.0, -3.0, 7.0) + random.point() * 0.5;
+        assert!(geometry.closest_hit(&Ray::new(o, d)).is_some(), "from {o} along {d}");
+    }
+}
