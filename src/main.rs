@@ -1,2 +1,7 @@
-//! Snell.
-fn main() {}
+//! The `snell` command.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    snell::cli::run()
+}

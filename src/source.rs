@@ -91,6 +91,7 @@ impl<T> std::ops::Deref for Spanned<T> {
 pub struct FileId(pub u32);
 
 /// A text that was read, with what is needed to find a line in it.
+#[derive(Clone)]
 pub struct SourceFile {
     /// The name shown to people, as they would type it.
     pub name: String,
@@ -100,7 +101,9 @@ pub struct SourceFile {
     pub text: Arc<str>,
     /// The offset of the text's first byte.
     pub base: u32,
-    line_starts: Vec<u32>,
+    /// The place that names this file, `None` for the main one.
+    pub included_from: Option<Span>,
+    line_starts: Arc<[u32]>,
 }
 
 impl SourceFile {
@@ -145,7 +148,7 @@ impl fmt::Display for Location {
 }
 
 /// Every text of a run, in the order in which they were read.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct SourceMap {
     files: Vec<SourceFile>,
 }
@@ -158,8 +161,13 @@ impl SourceMap {
         u32::try_from(text.len()).ok()?.checked_add(base)?.checked_add(1)?;
         let ends = text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n').map(|(i, _)| i as u32 + 1);
         let line_starts = std::iter::once(0).chain(ends).collect();
-        self.files.push(SourceFile { name, path, text, base, line_starts });
+        self.files.push(SourceFile { name, path, text, base, included_from: None, line_starts });
         Some(FileId(self.files.len() as u32 - 1))
+    }
+
+    /// Says which place named a file.
+    pub fn set_included_from(&mut self, id: FileId, place: Span) {
+        self.files[id.0 as usize].included_from = Some(place);
     }
 
     /// The file with this index.

@@ -53,7 +53,8 @@ fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
 }
 
 fn solid(kind: SolidKind, world_from_object: DAffine3) -> Solid {
-    Solid { kind, world_from_object, material: MaterialId(0), source: SourceId(0) }
+    let texture_from_object = DAffine3::IDENTITY;
+    Solid { kind, world_from_object, texture_from_object, material: MaterialId(0), source: SourceId(0) }
 }
 
 fn scene(mesh: Mesh) -> Geometry {
@@ -387,14 +388,22 @@ fn rays_with_nan_or_infinity_miss() {
 #[test]
 fn rays_leave_a_mesh_cleanly_at_any_place_and_size() {
     let far = Vec3::new(148_376.0, 1234.0, -223_423.0);
-    let settings = [(1.0, Vec3::ZERO), (1e-4, Vec3::ZERO), (1e-6, Vec3::ZERO), (1e6, Vec3::ZERO)];
-    let shifted = [(1.0, Vec3::splat(1e4)), (100.0, Vec3::new(1e6, 0.0, -1e6)), (2.0, far)];
-    for (scale, shift) in settings.into_iter().chain(shifted) {
-        let (positions, triangles) = sphere(40, 40, |_, _| 1.0);
+    // Faces of the cube that is shifted by its own half lie in coordinate planes, where offsets of coordinates vanish.
+    let near = [1.0, 1e-4, 1e6].map(|scale| (scale, Vec3::splat(scale)));
+    let centered = [1.0, 1e-4, 1e-6, 1e6].map(|scale| (scale, Vec3::ZERO));
+    // Farther away, points near an edge of a cube round onto it, and rays inwards rightly leave there.
+    let distant = [(1.0, Vec3::splat(1e4)), (100.0, Vec3::new(1e6, 0.0, -1e6)), (2.0, far)];
+    let round = sphere(40, 40, |_, _| 1.0);
+    let cubes = [cube(8), cube(1)];
+    let all = near.into_iter().chain(centered);
+    let cases = all.clone().flat_map(|place| cubes.iter().map(move |shape| (shape, place)));
+    for ((positions, triangles), (scale, shift)) in
+        cases.chain(all.chain(distant).map(|place| (&round, place)))
+    {
         let positions = positions.iter().map(|p| *p * scale + shift).collect();
-        let geometry = scene(mesh(positions, triangles));
-        let (self_hits, leaks) = self_hits_and_leaks(&geometry, shift, scale, |point, dir| point.spawn(dir));
-        assert_eq!((self_hits, leaks), (0, 0), "scale {scale}, shift {shift}");
+        let geometry = scene(mesh(positions, triangles.clone()));
+        let found = self_hits_and_leaks(&geometry, shift, scale, |point, dir| point.spawn(dir));
+        assert_eq!(found, (0, 0), "{} triangles, scale {scale}, shift {shift}", triangles.len());
     }
 }
 

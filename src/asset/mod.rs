@@ -1,1 +1,11 @@
-//! (to come)
+//! Bytes → meshes and pictures, with every trap of the formats caught.
+//!
+//! This layer knows files, not scenes: its errors say what is wrong and where in the file, and `load` says which line of
+//! the scene asked for it.
+
+pub mod obj;
+pub mod picture;
+pub mod polygon;
+
+pub use obj::{Model, ModelMaterial, ObjError, Part};
+pub use picture::{Picture, PictureError, Pixels};

@@ -1,1 +1,97 @@
-//! (to come)
+//! Ir → [`Checked`]: that the scene makes sense as a whole, by the laws of geometry and of light.
+//!
+//! A file per subject. Nothing stops at a mistake; what `resolve` could make sense of is checked even when there was
+//! much it could not.
+
+mod camera;
+mod curve;
+mod error;
+mod light;
+mod material;
+mod render;
+mod shape;
+mod transform;
+
+use crate::diag::Problems;
+use crate::ir::{MaterialKind, Scene};
+use crate::schema::Type;
+use crate::source::{Span, Spanned};
+pub use camera::camera;
+pub use error::CheckError;
+use std::ops::Deref;
+
+/// A scene that was checked. Only [`check`] makes one; it makes sense when no error was noted.
+#[derive(Debug)]
+pub struct Checked(Scene);
+
+impl Deref for Checked {
+    type Target = Scene;
+
+    fn deref(&self) -> &Scene {
+        &self.0
+    }
+}
+
+/// Checks `scene` and notes what is wrong in `problems`.
+///
+/// `None`: something was wrong before, and nothing is left to check. Otherwise whoever goes on to render asks
+/// [`Problems::has_errors`]; whoever only looks for more mistakes need not.
+pub fn check(scene: Scene, problems: &mut Problems) -> Option<Checked> {
+    let nothing = scene.objects.is_empty() && scene.lights.is_empty() && scene.cameras.is_empty();
+    if nothing && problems.has_errors() {
+        return None;
+    }
+    // What is missing may be what could not be resolved: then it is not worth a report of its own.
+    let whole = !problems.has_errors();
+    let mut check = Check { scene: &scene, problems, whole };
+    check.shapes();
+    check.transforms();
+    check.materials();
+    check.lights();
+    check.cameras();
+    check.render();
+    Some(Checked(scene))
+}
+
+/// The check of a scene.
+struct Check<'a> {
+    scene: &'a Scene,
+    problems: &'a mut Problems,
+    /// Whether everything that was written could be resolved.
+    whole: bool,
+}
+
+impl Check<'_> {
+    fn report(&mut self, error: CheckError) {
+        self.problems.push(error);
+    }
+
+    /// Notes a size that is not greater than 0.
+    fn positive(&mut self, what: &'static str, size: Spanned<f64>, ty: Type) {
+        if size.value <= 0.0 {
+            let found = ty.write(size.value);
+            self.report(CheckError::NotPositive { what, found, used: size.span, example: ty.example() });
+        }
+    }
+
+    /// The materials of placed objects, through mixes, each with the object's span; some of them more than once.
+    fn placed_materials(&self) -> impl Iterator<Item = (&MaterialKind, Span)> {
+        let mut reached = vec![None; self.scene.materials.len()];
+        for object in &self.scene.objects {
+            if let Some(handle) = object.material {
+                reached[handle.index()].get_or_insert(object.span);
+            }
+        }
+        // A mix is written after its parts, so one pass from the back reaches them all.
+        for (handle, material) in self.scene.materials.entries().collect::<Vec<_>>().into_iter().rev() {
+            if let (MaterialKind::Mix { a, b, .. }, Some(span)) = (&material.kind, reached[handle.index()]) {
+                reached[a.index()].get_or_insert(span);
+                reached[b.index()].get_or_insert(span);
+            }
+        }
+        self.scene
+            .materials
+            .entries()
+            .filter_map(move |(handle, material)| reached[handle.index()].map(|span| (&material.kind, span)))
+    }
+}

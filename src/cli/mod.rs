@@ -1,1 +1,94 @@
-//! (to come)
+//! The command line: a file per command, nothing else.
+//!
+//! Standard output carries results only; diagnostics, progress and summaries go to standard error.
+
+mod args;
+mod check;
+mod convert;
+mod interrupt;
+mod new;
+mod plan;
+mod progress;
+mod render;
+mod session;
+mod summary;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// A scene language that shows every mistake, and a renderer that shows its error.
+#[derive(Parser, Debug)]
+#[command(name = "snell", version, disable_help_subcommand = true, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// Render a scene to a picture
+    Render(render::RenderArgs),
+    /// Report every mistake of scenes, without shooting a ray
+    Check(check::CheckArgs),
+    /// Show what a scene calls for: its effects, why, and the method
+    Plan(plan::PlanArgs),
+    /// Turn an arsenal.txt scene into a .snell scene
+    Convert(convert::ConvertArgs),
+    /// Start a first scene to edit
+    New(new::NewArgs),
+}
+
+/// How a command ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Exit {
+    /// All is well.
+    Done,
+    /// The scene is wrong.
+    SceneWrong,
+    /// Wrong usage, or a file that cannot be read or written.
+    Usage,
+    /// Interrupted; what there was has been written.
+    Interrupted,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        match exit {
+            Exit::Done => Self::SUCCESS,
+            Exit::SceneWrong => Self::from(1),
+            Exit::Usage => Self::from(2),
+            Exit::Interrupted => Self::from(130),
+        }
+    }
+}
+
+/// Runs the command that the process was started with.
+pub fn run() -> ExitCode {
+    let exit = match Cli::parse().command {
+        Command::Render(args) => render::run(&args),
+        Command::Check(args) => check::run(&args),
+        Command::Plan(args) => plan::run(&args),
+        Command::Convert(args) => convert::run(&args),
+        Command::New(args) => new::run(&args),
+    };
+    exit.into()
+}
+
+/// Says why a command cannot go on.
+fn fail(reason: impl std::fmt::Display) -> Exit {
+    note(format_args!("error: {reason}\n"));
+    Exit::Usage
+}
+
+/// Writes to standard error. A pipe closed early is no reason to stop.
+fn note(text: impl std::fmt::Display) {
+    use std::io::Write;
+    let _ = write!(std::io::stderr().lock(), "{text}");
+}
+
+/// Writes a result to standard output. A pipe closed early is no reason to complain: whoever read it has enough.
+fn print(text: impl std::fmt::Display) {
+    use std::io::Write;
+    let mut out = std::io::stdout().lock();
+    let _ = write!(out, "{text}").and_then(|()| out.flush());
+}

@@ -3,8 +3,14 @@
 //! Each phase describes its mistakes in its own `error.rs` (an enum that derives `thiserror::Error` and
 //! `miette::Diagnostic`), and notes them in [`Problems`]. [`Report`] puts them in source order and renders them.
 
+mod human;
+mod json;
 mod problems;
+mod report;
 mod suggest;
+mod view;
 
+pub use human::Style;
 pub use problems::{Problem, Problems, Severity, Trail};
+pub use report::Report;
 pub use suggest::{did_you_mean, nearest};

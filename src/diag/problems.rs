@@ -1,6 +1,7 @@
 //! What has gone wrong so far.
 
-use crate::source::Span;
+use super::Report;
+use crate::source::{SourceMap, Span};
 use miette::Diagnostic;
 
 /// How bad a problem is.
@@ -77,6 +78,23 @@ impl Problems {
     /// What was noted, in the order of noting.
     pub fn list(&self) -> &[Problem] {
         &self.list
+    }
+
+    /// Removes the warnings of this code (whole, or from its last `::` on) within `span`, and says how many there were.
+    pub fn silence(&mut self, code: &str, span: Span) -> usize {
+        let before = self.list.len();
+        self.list.retain(|problem| {
+            let whole = problem.code();
+            let is_meant = whole == code || whole.rsplit("::").next() == Some(code);
+            let is_inside = (span.start as usize..=span.end as usize).contains(&problem.offset());
+            problem.severity() == Severity::Error || !is_meant || !is_inside
+        });
+        before - self.list.len()
+    }
+
+    /// The report of all that was noted.
+    pub fn into_report(self, sources: &SourceMap) -> Report {
+        Report::new(self, sources)
     }
 
     /// What was noted, in source order; mistakes without a place come last, equal places in the order of noting.

@@ -40,6 +40,8 @@ pub struct Scene {
     pub render: Render,
     /// Each parameter with its value in this run.
     pub params: Vec<Param>,
+    /// The names that objects carry, by the ids in [`Object::names`].
+    pub names: Vec<Named>,
     /// Warnings that the scene silences: the code and the item's span.
     pub allows: Vec<(Spanned<String>, Span)>,
 }
@@ -61,6 +63,17 @@ pub struct Object {
     pub trail: Vec<Span>,
     /// The names under which `on NAME` finds it: the `let` and the `place .. as` around it.
     pub names: Vec<u32>,
+}
+
+/// A name that `on NAME` can find: of a `let` whose value is an object, or of a `place .. as`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Named {
+    /// The name, where it is defined.
+    pub name: Spanned<String>,
+    /// How often what it names is in the picture.
+    pub count: u32,
+    /// Who put it there, the first two of them.
+    pub placed: Vec<Span>,
 }
 
 /// One factor of a transform, for reports about singular ones.

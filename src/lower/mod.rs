@@ -1,1 +1,105 @@
-//! (to come)
+//! From the checked scene to a world ready for rays: the one place where spans and rays are both known.
+//!
+//! Works in double precision and moves the scene's centre to the origin before rounding to single, so that a scene far
+//! from the origin keeps its digits.
+
+mod camera;
+pub mod curve;
+mod error;
+mod light;
+mod material;
+mod object;
+mod place;
+pub mod tessellate;
+
+use crate::diag::Problems;
+use crate::ir;
+use crate::load::Loaded;
+use crate::math::DVec3;
+use crate::plan::Plan;
+use crate::render::shape::{Mesh, Solid, SourceId};
+use crate::render::world::{Parts, World};
+use crate::render::{Method, PpmSettings};
+use crate::source::{Files, Span};
+pub use error::LowerError;
+use material::Materials;
+pub use place::object_bounds;
+
+/// A world, and what only the caller needs to know of the scene.
+pub struct Lowered {
+    /// Ready for rays.
+    pub world: World,
+    /// The integrator with its settings.
+    pub method: Method,
+    /// Where each `SourceId` was written.
+    pub sources: Vec<Span>,
+    /// What was moved to the origin, in the scene's metres.
+    pub center: DVec3,
+}
+
+/// Builds the world that `camera` sees. `None` when a picture cannot be decoded, or the camera has nothing to focus on.
+pub fn lower(
+    loaded: &Loaded<'_>,
+    plan: &Plan,
+    camera: &ir::Camera,
+    files: &dyn Files,
+    problems: &mut Problems,
+) -> Option<Lowered> {
+    let center = place::scene_center(loaded);
+    let mut lowering = Lowering {
+        loaded,
+        center,
+        materials: Materials::new(loaded, files),
+        meshes: Vec::new(),
+        solids: Vec::new(),
+        sources: Vec::new(),
+    };
+    for object in &loaded.scene.objects {
+        lowering.object(object);
+    }
+    let lights = loaded.scene.lights.iter().filter_map(|light| lowering.light(light)).collect();
+    let environment = loaded.scene.environment.as_ref().and_then(|e| lowering.materials.environment(e));
+    let camera = camera::camera(camera, loaded, center).map_err(|error| problems.push(error)).ok();
+
+    let Lowering { materials, meshes, solids, sources, .. } = lowering;
+    let (materials, textures, failed) = materials.finish();
+    let any_failed = !failed.is_empty();
+    failed.into_iter().for_each(|error| problems.push(error));
+    let camera = camera.filter(|_| !any_failed)?;
+    let method = method(plan, &camera);
+    let camera = crate::render::camera::Camera::new(camera.spec);
+    let world = World::new(Parts { meshes, solids, materials, textures, lights, environment, camera });
+    Some(Lowered { world, method, sources, center })
+}
+
+fn method(plan: &Plan, camera: &camera::Seen) -> Method {
+    match plan.method {
+        ir::Method::Pt => Method::Pt,
+        ir::Method::Ppm => Method::Ppm(PpmSettings {
+            photon_count: plan.photon_count,
+            k: plan.photon_k,
+            radius: plan.photon_radius.unwrap_or(camera.pixel_footprint * PIXELS_PER_RADIUS) as f32,
+            shrink: plan.photon_shrink,
+        }),
+    }
+}
+
+/// The first gather radius in pixel footprints, unless the scene says otherwise.
+const PIXELS_PER_RADIUS: f64 = 4.0;
+
+/// What has been lowered so far.
+struct Lowering<'a> {
+    loaded: &'a Loaded<'a>,
+    center: DVec3,
+    materials: Materials<'a>,
+    meshes: Vec<Mesh>,
+    solids: Vec<Solid>,
+    sources: Vec<Span>,
+}
+
+impl Lowering<'_> {
+    fn source(&mut self, span: Span) -> SourceId {
+        self.sources.push(span);
+        SourceId(self.sources.len() as u32 - 1)
+    }
+}

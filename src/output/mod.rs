@@ -1,1 +1,25 @@
-//! (to come)
+//! Film → files: tone, formats, and files that are whole or not there.
+
+mod exr;
+mod file;
+pub mod tone;
+
+pub use file::{Format, OutputError, Target, encode, replace};
+pub use tone::{Display, Exposure, Tone};
+
+use crate::math::Rgb;
+
+/// A finished picture with what is known about it, top row first.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Frame {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Linear radiance, `width · height`.
+    pub radiance: Vec<Rgb>,
+    /// The standard error of each pixel's channels; empty when it is not known.
+    pub standard_error: Vec<Rgb>,
+    /// Facts about the render for formats that can hold them: names and values.
+    pub facts: Vec<(String, String)>,
+}

@@ -1,1 +1,92 @@
-//! (to come)
+//! What a scene calls for: its effects with the lines that need them, and the method that suits them.
+
+pub mod effects;
+
+use crate::ir::light::LightKind;
+use crate::ir::{Camera, Method};
+use crate::load::Loaded;
+pub use effects::{Effect, EffectUse};
+
+/// What will be simulated, and how.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Plan {
+    /// The effects that the scene calls for.
+    pub effects: Vec<EffectUse>,
+    /// The integrator.
+    pub method: Method,
+    /// Why it was chosen, in a sentence.
+    pub why: String,
+    /// Photons emitted a pass.
+    pub photon_count: u32,
+    /// The most photons of a gather.
+    pub photon_k: u32,
+    /// The gather radius of the first pass in metres; `None`: from the size of a pixel.
+    pub photon_radius: Option<f64>,
+    /// α of Knaus & Zwicker 2011.
+    pub photon_shrink: f64,
+    /// The most vertices of a path.
+    pub depth: u32,
+}
+
+impl Plan {
+    /// Whether the scene calls for an effect.
+    pub fn needs(&self, effect: Effect) -> bool {
+        self.effects.iter().any(|used| used.effect == effect)
+    }
+}
+
+/// Photons a pass, unless the scene says otherwise.
+const PHOTON_COUNT: u32 = 200_000;
+/// Photons a gather, unless the scene says otherwise.
+const PHOTON_K: u32 = 60;
+/// The share of the radius kept: 2/3 balances noise and bias best (Kaplanyan & Dachsbacher 2013).
+const PHOTON_SHRINK: f64 = 2.0 / 3.0;
+/// The most vertices of a path, unless the scene says otherwise; roulette ends nearly all before.
+const DEPTH: u32 = 64;
+
+/// Derives the plan of a scene seen by `camera`. `forced` overrides the scene's method.
+pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, forced: Option<Method>) -> Plan {
+    let effects = effects::effects(loaded, camera);
+    let render = &loaded.scene.render;
+    let written = render.method.map(|method| method.value);
+    let (method, why) = match (forced, written) {
+        (Some(method), _) => (method, "asked for on the command line".to_owned()),
+        (None, Some(method)) => (method, "asked for by the scene".to_owned()),
+        (None, None) => choose(loaded, &effects),
+    };
+    let photons = &render.photons;
+    Plan {
+        effects,
+        method,
+        why,
+        photon_count: photons.count.map_or(PHOTON_COUNT, |count| count.value),
+        photon_k: photons.k.map_or(PHOTON_K, |k| k.value),
+        photon_radius: photons.radius.map(|radius| radius.value),
+        photon_shrink: photons.shrink.map_or(PHOTON_SHRINK, |shrink| shrink.value),
+        depth: render.depth.map_or(DEPTH, |depth| depth.value),
+    }
+}
+
+/// The method that suits a scene, whatever it says itself.
+pub fn suited(loaded: &Loaded<'_>, camera: Option<&Camera>) -> Method {
+    choose(loaded, &effects::effects(loaded, camera)).0
+}
+
+/// Photon mapping where light reaches matt surfaces through something specular and paths from the camera would hardly
+/// ever find its source; path tracing otherwise.
+fn choose(loaded: &Loaded<'_>, effects: &[EffectUse]) -> (Method, String) {
+    let caustics = effects.iter().any(|used| used.effect == Effect::Caustics);
+    let hidden = loaded.scene.lights.iter().any(|light| {
+        matches!(
+            light.kind,
+            LightKind::Point { .. } | LightKind::Sphere { .. } | LightKind::Directional { .. }
+        )
+    });
+    match (caustics, hidden) {
+        (true, true) => {
+            (Method::Ppm, "small lights shine through or off something specular: caustics".to_owned())
+        }
+        (true, false) => (Method::Pt, "the lights are large enough for paths to find them".to_owned()),
+        (false, _) => (Method::Pt, "no light reaches a matt surface by way of a specular one".to_owned()),
+    }
+}

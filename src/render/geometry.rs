@@ -41,7 +41,7 @@ pub struct SurfacePoint {
     pub tangent: Vec3,
     /// The texture point.
     pub uv: Vec2,
-    /// The point in the object's own frame, before its transform.
+    /// The point in the frame where textures are projected: the object's own, before its transform.
     pub p_object: Vec3,
     /// What it is made of.
     pub material: MaterialId,

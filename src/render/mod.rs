@@ -11,6 +11,7 @@ pub mod geometry;
 pub mod integrator;
 pub mod light;
 pub mod media;
+pub mod photon;
 pub mod sampler;
 pub mod shape;
 pub mod texture;

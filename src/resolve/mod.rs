@@ -1,1 +1,316 @@
-//! (to come)
+//! Ast → ir: what a scene means. Names are bound, units applied, loops run; every mistake is noted.
+//!
+//! Definitions are evaluated when first needed, and once. A mistake leaves a poisoned value on which everything
+//! that is made of it stays silent, so one mistake gives one report.
+
+mod budget;
+mod build;
+mod builtin;
+mod call;
+mod coerce;
+mod color;
+mod constructor;
+mod dimension;
+mod error;
+mod expr;
+mod fields;
+mod item;
+mod lint;
+mod node;
+mod noise;
+mod operator;
+mod param;
+mod scope;
+mod value;
+
+use crate::diag::{Problems, Trail};
+use crate::ir;
+use crate::source::{SourceMap, Span, Spanned};
+use crate::syntax::ast::{self, Entry, FileIndex, ItemKind};
+use budget::Budget;
+use dimension::Quantity;
+pub use error::Error;
+use miette::Diagnostic;
+use rustc_hash::FxHashSet;
+use scope::{Definition, Kind, Scope, State};
+use std::rc::Rc;
+use value::Value;
+
+/// A value that the command line gives to a parameter: `--set f_stop=8`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Setting {
+    /// The parameter.
+    pub name: Spanned<String>,
+    /// What it shall be.
+    pub value: ast::Expr,
+}
+
+/// What `program` means, with `settings` in place of the defaults of its parameters.
+///
+/// Mistakes go to `problems`; the scene holds what could be made sense of.
+pub fn resolve(
+    program: &ast::Program,
+    sources: &SourceMap,
+    settings: &[Setting],
+    problems: &mut Problems,
+) -> ir::Scene {
+    if program.files.is_empty() {
+        return ir::Scene::default();
+    }
+    lint::lint(program, problems);
+    let mut resolver = Resolver::new(program, sources, problems);
+    resolver.set_parameters(settings);
+    resolver.run_file(FileIndex(0));
+    resolver.evaluate_the_rest();
+    resolver.scene
+}
+
+/// The scope in which an expression is evaluated.
+type Env<'a> = Rc<Scope<'a>>;
+
+/// The evaluation of a program.
+struct Resolver<'a> {
+    program: &'a ast::Program,
+    sources: &'a SourceMap,
+    problems: &'a mut Problems,
+    scene: ir::Scene,
+    /// The top-level scope of each file that is the main one or imported.
+    roots: Vec<Option<Env<'a>>>,
+    /// Metres in a bare length, for each file.
+    units: Vec<f64>,
+    /// Metres in a bare length, where we are.
+    unit: f64,
+    /// The calls and turns of loops we are in, the outermost first.
+    trail: Vec<Step<'a>>,
+    /// The definitions that are being evaluated.
+    running: Vec<Rc<Definition<'a>>>,
+    /// The functions we are in, by the places of their names.
+    calls: Vec<Span>,
+    /// The functions that were called at least once.
+    called: FxHashSet<Span>,
+    /// Reports that were made, by code and place: a loop repeats none.
+    reported: FxHashSet<(String, usize)>,
+    /// What the command line says, by parameter.
+    settings: Vec<(&'a str, &'a Setting)>,
+    environment: Option<Span>,
+    render: Option<Span>,
+    budget: Budget,
+}
+
+/// A step on the way to where we are; put into words only when something goes wrong there.
+#[derive(Clone)]
+enum Step<'a> {
+    Call(&'a ast::Name, Span),
+    Turn(&'a ast::Name, Option<Quantity>),
+}
+
+impl Step<'_> {
+    fn told(&self) -> Trail {
+        match self {
+            Self::Call(name, span) => Trail { span: *span, text: format!("in this call of `{}`", name.value) },
+            Self::Turn(name, Some(value)) => {
+                Trail { span: name.span, text: format!("in the turn `{} = {}`", name.value, value.write()) }
+            }
+            Self::Turn(name, None) => Trail { span: name.span, text: format!("in a turn of `{}`", name.value) },
+        }
+    }
+}
+
+impl<'a> Resolver<'a> {
+    fn new(program: &'a ast::Program, sources: &'a SourceMap, problems: &'a mut Problems) -> Self {
+        let mut resolver = Self {
+            program,
+            sources,
+            problems,
+            scene: ir::Scene::default(),
+            roots: vec![None; program.files.len()],
+            units: vec![1.0; program.files.len()],
+            unit: 1.0,
+            trail: Vec::new(),
+            running: Vec::new(),
+            calls: Vec::new(),
+            called: FxHashSet::default(),
+            reported: FxHashSet::default(),
+            settings: Vec::new(),
+            environment: None,
+            render: None,
+            budget: Budget::default(),
+        };
+        resolver.read_units();
+        resolver
+    }
+
+    /// Notes a mistake, with the calls and loops that led to it; the same mistake at the same place once.
+    fn report(&mut self, error: Error) {
+        let offset = error.labels().and_then(|mut labels| labels.next()).map_or(0, |label| label.offset());
+        let code = error.code().map(|code| code.to_string()).unwrap_or_default();
+        if self.reported.insert((code, offset)) {
+            let trail = self.trail.iter().rev().map(Step::told).collect();
+            self.problems.push_with_trail(error, trail);
+        }
+    }
+
+    /// Notes a mistake and gives the value on which everything stays silent.
+    fn poison(&mut self, error: Error) -> Value<'a> {
+        self.report(error);
+        Value::Poison
+    }
+
+    /// The text of a place on one line, cut when it is long.
+    fn text(&self, span: Span) -> String {
+        const LONGEST: usize = 40;
+        let text = self.sources.text(span);
+        let line = text.lines().next().unwrap_or("").trim_end();
+        let short: String = line.chars().take(LONGEST).collect();
+        if short.len() == text.len() { short } else { format!("{short} ..") }
+    }
+
+    /// The top-level scope of a file.
+    fn root(&mut self, file: FileIndex) -> Env<'a> {
+        let index = file.0 as usize;
+        if let Some(scope) = &self.roots[index] {
+            return Rc::clone(scope);
+        }
+        let scope = Scope::new(None);
+        scope.declare_file(self.program, file, &self.units);
+        self.roots[index] = Some(Rc::clone(&scope));
+        scope
+    }
+
+    /// The value of a definition in `scope`, evaluated now if it was not yet.
+    fn value_of(&mut self, scope: &Env<'a>, definition: &Rc<Definition<'a>>) -> Value<'a> {
+        match &*definition.state.borrow() {
+            State::Done(value) => return value.clone(),
+            State::Running => {
+                let cycle = self.cycle(definition);
+                return self.poison(cycle);
+            }
+            State::Waiting => {}
+        }
+        *definition.state.borrow_mut() = State::Running;
+        self.running.push(Rc::clone(definition));
+        // A definition is evaluated where it stands: in its file's units, outside the calls that asked for it.
+        let unit = std::mem::replace(&mut self.unit, definition.unit);
+        let trail = std::mem::take(&mut self.trail);
+        let value = self.define(scope, definition);
+        self.trail = trail;
+        self.unit = unit;
+        self.running.pop();
+        *definition.state.borrow_mut() = State::Done(value.clone());
+        value
+    }
+
+    fn define(&mut self, scope: &Env<'a>, definition: &Rc<Definition<'a>>) -> Value<'a> {
+        match definition.kind {
+            Kind::Let(expr) => {
+                let value = self.eval(expr, scope);
+                self.name_value(definition, value)
+            }
+            Kind::Param { .. } => self.parameter(scope, definition),
+            Kind::Function(function) => Value::Function(value::Function {
+                definition: function,
+                scope: Rc::clone(scope),
+                unit: self.unit,
+            }),
+            Kind::Import(Some(file)) => {
+                self.definitions_only(file);
+                Value::Module(self.root(file))
+            }
+            Kind::Instance(place, span) => {
+                self.place(place, span, scope, Some(definition)).map_or(Value::Poison, Value::Object)
+            }
+            Kind::Import(None) | Kind::Given => Value::Poison,
+        }
+    }
+
+    /// Lets a `let`'s objects and materials know their name.
+    fn name_value(&mut self, definition: &Definition<'a>, value: Value<'a>) -> Value<'a> {
+        match value {
+            Value::Object(node) => {
+                let id = self.name_id(definition);
+                Value::Object(node::Node::named(node, id, definition.span))
+            }
+            Value::Material(handle) => {
+                let name = &mut self.scene.materials[handle].name;
+                name.get_or_insert_with(|| definition.name.to_owned());
+                Value::Material(handle)
+            }
+            value => value,
+        }
+    }
+
+    /// The id that objects placed under this name carry.
+    fn name_id(&mut self, definition: &Definition<'a>) -> u32 {
+        if let Some(id) = definition.name_id.get() {
+            return id;
+        }
+        let id = self.scene.names.len() as u32;
+        let name = Spanned::new(definition.name.to_owned(), definition.span);
+        self.scene.names.push(ir::Named { name, count: 0, placed: Vec::new() });
+        definition.name_id.set(Some(id));
+        id
+    }
+
+    /// The definitions from this one to itself, each with what it needs.
+    fn cycle(&self, again: &Rc<Definition<'a>>) -> Error {
+        let start = self.running.iter().position(|running| Rc::ptr_eq(running, again)).unwrap_or(0);
+        let round = &self.running[start..];
+        let label = |(i, from): (usize, &Rc<Definition<'a>>)| {
+            let to = round.get(i + 1).unwrap_or(again);
+            let text = format!("`{}` needs `{}`", from.name, to.name);
+            miette::LabeledSpan::new_with_span(Some(text), from.span)
+        };
+        Error::Cycle { name: again.name.to_owned(), steps: round.iter().enumerate().map(label).collect() }
+    }
+
+    /// Evaluates what nothing has asked for, so that its mistakes are found in the same run.
+    fn evaluate_the_rest(&mut self) {
+        let mut done = 0;
+        // Importing adds roots while we go; an evaluated definition costs nothing the second time.
+        while done < self.roots.len() {
+            if let Some(root) = self.roots[done].clone() {
+                for definition in root.in_order() {
+                    self.value_of(&root, &definition);
+                }
+            }
+            done += 1;
+        }
+        for root in self.roots.clone().into_iter().flatten() {
+            for definition in root.in_order() {
+                if let Value::Function(function) = self.value_of(&root, &definition) {
+                    self.try_function(&function);
+                }
+            }
+        }
+    }
+
+    /// What a bare length means in each file.
+    fn read_units(&mut self) {
+        let program = self.program;
+        for (index, file) in program.files.iter().enumerate() {
+            for item in &file.items {
+                if let ItemKind::Units(block) = &item.kind {
+                    self.read_units_block(index, block, item.span);
+                }
+            }
+        }
+    }
+
+    fn read_units_block(&mut self, file: usize, body: &'a ast::Block, span: Span) {
+        let block = crate::schema::block("units").expect("declared in the registry");
+        let fields = self.read(block, span, body, &Scope::new(None));
+        let Some(word) = fields.word("length") else { return };
+        if let Some(length) = dimension::with_unit(1.0, word.value) {
+            self.units[file] = length.value;
+        }
+    }
+
+    /// Definitions of blocks are read by the scope; this says whether an entry is one.
+    fn is_definition(entry: &Entry) -> bool {
+        let Entry::Item(item) = entry else { return false };
+        matches!(
+            item.kind,
+            ItemKind::Let { .. } | ItemKind::Param { .. } | ItemKind::Fn(_) | ItemKind::Import { .. }
+        )
+    }
+}

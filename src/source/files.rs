@@ -133,10 +133,12 @@ fn near_names(tried: &[PathBuf]) -> Vec<String> {
     rank(names.map(|entry| entry.file_name().to_string_lossy().into_owned()), &wanted.to_string_lossy())
 }
 
+/// The names most like `wanted`, at most three; likeness is that of the stem, as all scenes end alike.
 fn rank(names: impl Iterator<Item = String>, wanted: &str) -> Vec<String> {
+    let stem = Path::new(wanted).file_stem().map_or(0, |stem| stem.to_string_lossy().chars().count());
     let mut near: Vec<(usize, String)> = names
         .map(|name| (strsim::osa_distance(&name.to_lowercase(), &wanted.to_lowercase()), name))
-        .filter(|(distance, _)| *distance <= wanted.chars().count().div_ceil(3))
+        .filter(|(distance, _)| *distance <= stem.div_ceil(3))
         .collect();
     near.sort();
     near.dedup();

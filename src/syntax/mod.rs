@@ -1,3 +1,57 @@
 //! Text → ast: what was written, includes read, every syntax error noted.
 
 pub mod ast;
+mod balance;
+mod block;
+pub mod dump;
+mod error;
+mod expr;
+mod foreign;
+mod grammar;
+mod item;
+mod literal;
+mod load;
+mod lower;
+mod repair;
+mod scan;
+mod stray;
+mod text;
+
+use crate::diag::Problems;
+use crate::source::{FileId, Files, SourceMap};
+use std::path::PathBuf;
+
+pub use error::SyntaxError;
+
+/// Reads the main file and all that it includes and imports, each file once.
+///
+/// Every mistake is noted in `problems` and leaves a poisoned node in the tree.
+pub fn parse(
+    sources: &mut SourceMap,
+    files: &dyn Files,
+    main: FileId,
+    problems: &mut Problems,
+) -> ast::Program {
+    load::Loader::new(sources, files, problems).program(main)
+}
+
+/// Reads one expression, such as the `8` of `--set f_stop=8`; `name` stands for a file in reports.
+///
+/// `None`, and a report, when the text is not one expression.
+pub fn parse_expression(
+    sources: &mut SourceMap,
+    text: &str,
+    name: &str,
+    problems: &mut Problems,
+) -> Option<ast::Expr> {
+    let id = sources.add(name.to_owned(), PathBuf::new(), text.into())?;
+    let mut no_files = |_: &lower::Request| None;
+    let base = sources.file(id).base;
+    let repaired = repair::repair(text, base).map_err(|error| problems.push(error)).ok()?;
+    let mut lower = lower::Lower::new(repaired.as_text(text, base), &mut no_files);
+    let value = lower.alone();
+    let errors = lower.finish(repaired.errors.clone(), &repaired.guesses);
+    let is_sound = errors.is_empty();
+    errors.into_iter().for_each(|error| problems.push(error));
+    value.filter(|_| is_sound)
+}

@@ -58,6 +58,7 @@ pub fn sphere(center: Vec3, radius: f64, material: u32) -> Solid {
             DMat3::from_diagonal(DVec3::splat(radius)),
             center.as_dvec3(),
         ),
+        texture_from_object: DAffine3::IDENTITY,
         material: MaterialId(material),
         source: SourceId::default(),
     }

@@ -260,18 +260,18 @@ impl Task {
     }
 
     /// Two halves of the objects in the same space, where the SAH over boxes of objects wants it.
-    fn divide_objects(mut self) -> Cell {
+    fn divide_objects(self) -> Cell {
         let count = self.references.len();
         if count <= LANES || self.depth_left == 0 {
             return self.leaf();
         }
-        let (axis, below, cost) = sah::sweep_objects(&mut self.references);
-        if cost >= sah::leaf_cost(count) {
+        let Some(split) = sah::divide_objects(&self.references) else { return self.leaf() };
+        if split.cost >= sah::leaf_cost(count) {
             return self.leaf();
         }
-        sah::sort_by_center(&mut self.references, axis);
-        let above = self.references.split_off(below);
-        let tasks = [self.references, above].map(|references| Task {
+        let (below, above): (Vec<_>, Vec<_>) =
+            self.references.into_iter().partition(|reference| split.is_below(reference));
+        let tasks = [below, above].map(|references| Task {
             cell: self.cell,
             references,
             events: None,

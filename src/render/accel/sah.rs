@@ -10,6 +10,8 @@ const TRAVERSAL_COST: f64 = 1.0;
 const EMPTY_BONUS: f64 = 0.8;
 /// Planes tried along an axis where the sweep would be too dear.
 const PLANES: usize = 64;
+/// Slots along an axis into which objects are sorted where they are divided.
+const SLOTS: usize = 32;
 
 /// A plane that splits a cell.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -91,34 +93,77 @@ fn candidates(cell: Bounds, references: &[Reference], axis: usize) -> [f32; PLAN
     planes
 }
 
-/// Sorts references by the centres of their boxes along an axis.
-pub fn sort_by_center(references: &mut [Reference], axis: usize) {
-    let center = |reference: &Reference| reference.bounds.min[axis] + reference.bounds.max[axis];
-    references.sort_unstable_by(|a, b| center(a).total_cmp(&center(b)).then(a.item.cmp(&b.item)));
+/// A way to divide references into two sets with boxes of their own.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ObjectSplit {
+    slots: Slots,
+    /// The first slot above.
+    first_above: usize,
+    /// The expected price of a ray through the cell, divided so.
+    pub cost: f64,
 }
 
-/// The best way to divide references, sorted by centre, into two sets with boxes of their own: the axis, how many go
-/// below, and the price. Leaves them sorted along the last axis.
-pub fn sweep_objects(references: &mut [Reference]) -> (usize, usize, f64) {
-    let all = references.iter().fold(Bounds::EMPTY, |all, reference| all.union(reference.bounds));
-    let count = references.len();
-    let mut best = (0, 0, f64::INFINITY);
-    let mut areas_above = vec![0.0; count];
+/// Slots of equal width for the centres of boxes along an axis.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Slots {
+    axis: usize,
+    low: f32,
+    scale: f32,
+}
+
+impl Slots {
+    fn new(references: &[Reference], axis: usize) -> Self {
+        let centers = references.iter().map(|reference| twice_center(reference, axis));
+        let (low, high) =
+            centers.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), c| (low.min(c), high.max(c)));
+        Self { axis, low, scale: SLOTS as f32 / (high - low) }
+    }
+
+    /// The slot of a reference; all are in the first where centres do not differ.
+    fn of(&self, reference: &Reference) -> usize {
+        (((twice_center(reference, self.axis) - self.low) * self.scale) as usize).min(SLOTS - 1)
+    }
+}
+
+fn twice_center(reference: &Reference, axis: usize) -> f32 {
+    reference.bounds.min[axis] + reference.bounds.max[axis]
+}
+
+impl ObjectSplit {
+    /// Whether a reference goes to the first set.
+    pub fn is_below(&self, reference: &Reference) -> bool {
+        self.slots.of(reference) < self.first_above
+    }
+}
+
+/// The best division by the centres of boxes (Wald 2007); `None` where all centres fall together.
+pub fn divide_objects(references: &[Reference]) -> Option<ObjectSplit> {
+    let area =
+        references.iter().fold(Bounds::EMPTY, |all, reference| all.union(reference.bounds)).half_area();
+    let mut best: Option<ObjectSplit> = None;
     for axis in 0..3 {
-        sort_by_center(references, axis);
-        let mut bounds = Bounds::EMPTY;
-        for (area, reference) in areas_above.iter_mut().zip(&*references).rev() {
-            bounds = bounds.union(reference.bounds);
-            *area = bounds.half_area();
+        let slots = Slots::new(references, axis);
+        let mut filled = [(0, Bounds::EMPTY); SLOTS];
+        for reference in references {
+            let (count, bounds) = &mut filled[slots.of(reference)];
+            *count += 1;
+            *bounds = bounds.union(reference.bounds);
         }
-        bounds = Bounds::EMPTY;
-        for below in 1..count {
-            bounds = bounds.union(references[below - 1].bounds);
-            let inside =
-                bounds.half_area() * leaf_cost(below) + areas_above[below] * leaf_cost(count - below);
-            let cost = TRAVERSAL_COST + inside / all.half_area();
-            if cost < best.2 {
-                best = (axis, below, cost);
+        // The price of everything above each slot, then that of everything below.
+        let mut above = [0.0; SLOTS];
+        let (mut count, mut bounds) = (0, Bounds::EMPTY);
+        for i in (1..SLOTS).rev() {
+            count += filled[i].0;
+            bounds = bounds.union(filled[i].1);
+            above[i] = bounds.half_area() * leaf_cost(count);
+        }
+        (count, bounds) = (0, Bounds::EMPTY);
+        for i in 1..SLOTS {
+            count += filled[i - 1].0;
+            bounds = bounds.union(filled[i - 1].1);
+            let cost = TRAVERSAL_COST + (bounds.half_area() * leaf_cost(count) + above[i]) / area;
+            if 0 < count && count < references.len() && best.is_none_or(|best| cost < best.cost) {
+                best = Some(ObjectSplit { slots, first_above: i, cost });
             }
         }
     }

@@ -84,7 +84,7 @@ impl Geometry {
             Prim::Triangle(mesh, corners) => (2.0 / cross_of_edges(mesh.corners(corners)).length()) as f32,
             Prim::Solid(solid) => match solid.pdf_cone(from) {
                 Some(pdf) => return pdf,
-                None => solid.pdf_area(at.p_object),
+                None => solid.pdf_area(at.p),
             },
         };
         solid_angle_density(from, at.p, at.n, pdf_area).map_or(0.0, |(_, _, pdf)| pdf)

@@ -1,7 +1,7 @@
 //! From a hit to the full surface point, and rays that leave it.
 
 use super::{AreaSample, Geometry, Hit, Prim, PrimId, SurfacePoint};
-use crate::math::{DVec3, Ray, Vec2, Vec3, float};
+use crate::math::{Bounds, DVec3, Ray, Vec2, Vec3, float};
 use crate::render::shape::Mesh;
 use crate::render::shape::solid::{SolidHit, orthogonal_tangent};
 use crate::render::shape::triangle::cross_of_edges;
@@ -79,16 +79,17 @@ pub(super) fn triangle_point(mesh: &Mesh, corners: [u32; 3], b: Vec2, prim: Prim
     }
 }
 
-/// The point of a triangle with barycentrics `b`, and the bound γ(7)·Σ|bᵢ·vᵢ| on its error.
+/// The point of a triangle with barycentrics `b`, and the bound γ(7)·(Σ|bᵢ·vᵢ| + size) on its error.
 ///
-/// The largest axis stands for all three: the triangle test shears the axes into each other, so that a point of the
-/// plane z = 0, where no z is ever rounded, still needs the room that x and y call for.
+/// The sum is the rounding of coordinates, axis by axis. The size of the triangle is what its test rounds by, once it
+/// has sheared the axes into each other: a point of the plane z = 0, where no z is ever rounded, still needs that room.
 pub(super) fn interpolate_point(positions: [Vec3; 3], b: Vec2) -> (Vec3, Vec3) {
+    let size = f64::from(Bounds::of(positions).size().max_element());
     let b = weights(b);
     let terms = [0, 1, 2].map(|i| positions[i].as_dvec3() * b[i]);
     let p = terms[0] + terms[1] + terms[2];
-    let error = (terms[0].abs() + terms[1].abs() + terms[2].abs()) * f64::from(float::gamma(7));
-    (p.as_vec3(), Vec3::splat(error.max_element() as f32))
+    let error = (terms[0].abs() + terms[1].abs() + terms[2].abs() + size) * f64::from(float::gamma(7));
+    (p.as_vec3(), error.as_vec3())
 }
 
 /// All three barycentrics from the last two.

@@ -1,8 +1,10 @@
 //! How the radiance along a camera ray is found.
 
 mod path;
+mod ppm;
 
 pub use path::PathTracer;
+pub use ppm::{PhotonMapper, Schedule};
 
 use super::film::STREAMS;
 use super::sampler::Sampler;

@@ -158,7 +158,7 @@ const SAFE_SPECULAR_BOUNCES: u32 = 32;
 const ENDLESS_BOUNCES: u32 = 8;
 
 /// The probability with which a path of the given worth (its largest throughput) was allowed to go on; `None` if it ends.
-fn roulette(worth: f32, depth: u32, specular: bool, u: impl FnOnce() -> f32) -> Option<f32> {
+pub(super) fn roulette(worth: f32, depth: u32, specular: bool, u: impl FnOnce() -> f32) -> Option<f32> {
     if worth.is_nan() || worth < 1e-30 {
         return None;
     }

@@ -49,6 +49,8 @@ pub struct Solid {
     pub kind: SolidKind,
     /// World space from object space; not singular. May mirror.
     pub world_from_object: DAffine3,
+    /// The frame in which textures are projected, from object space.
+    pub texture_from_object: DAffine3,
     /// What it is made of.
     pub material: MaterialId,
     /// Where it came from.

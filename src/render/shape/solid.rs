@@ -115,7 +115,7 @@ impl PlacedSolid {
             ns: n,
             tangent: orthogonal_tangent(self.solid.world_from_object.transform_vector3(tangent), n),
             uv,
-            p_object: p.as_vec3(),
+            p_object: self.solid.texture_from_object.transform_point3(p).as_vec3(),
             material: self.solid.material,
             prim,
             source: self.solid.source,
@@ -141,15 +141,19 @@ impl PlacedSolid {
             }
         };
         let (p_world, p_error) = self.to_world(p);
-        let pdf_area = self.pdf_area(p.as_vec3());
+        let pdf_area = self.pdf_area_at(p);
         AreaSample { p: p_world, p_error, n: self.normal_to_world(n), uv, pdf_area }
     }
 
-    /// The density of [`Self::sample_area`] at a point given in the object's frame, per square metre.
-    pub fn pdf_area(&self, p_object: Vec3) -> f32 {
+    /// The density of [`Self::sample_area`] at a point on the solid, in world space, per square metre.
+    pub fn pdf_area(&self, p: Vec3) -> f32 {
+        self.pdf_area_at(self.object_from_world.transform_point3(p.as_dvec3()))
+    }
+
+    fn pdf_area_at(&self, p_object: DVec3) -> f32 {
         match &self.solid.kind {
             SolidKind::Sphere => {
-                let scale = self.area_scale(p_object.as_dvec3().normalize());
+                let scale = self.area_scale(p_object.normalize());
                 (1.0 / (4.0 * PI * scale)) as f32
             }
             _ => (1.0 / self.area) as f32,

@@ -1,0 +1,129 @@
+//! Picture files: their size without their pixels, and their pixels.
+
+use image::{DynamicImage, ImageError, ImageReader, Limits};
+use std::io::Cursor;
+
+/// The largest width and height that is read.
+pub const MAX_SIDE: u32 = 32_768;
+/// The most memory that decoding may take, in bytes.
+const MAX_BYTES: u64 = 2 << 30;
+
+/// A decoded picture, top row first.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Picture {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// `width · height` pixels.
+    pub pixels: Pixels,
+}
+
+/// Pixels as the file means them.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Pixels {
+    /// Display values (sRGB), 8 bits a channel.
+    Display(Vec<[u8; 3]>),
+    /// Linear radiance.
+    Linear(Vec<[f32; 3]>),
+}
+
+/// Why a picture cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// Not a format that is read.
+    #[error("this is not a PNG, JPEG, PPM, HDR or EXR file")]
+    UnknownFormat,
+    /// Beyond the limits.
+    #[error("it is too large: at most {MAX_SIDE} pixels a side and 2 GiB are read")]
+    TooLarge,
+    /// Nothing in it.
+    #[error("it has no pixels")]
+    Empty,
+    /// Infinite or undefined values.
+    #[error("{0} of its pixels are not finite numbers")]
+    NotFinite(usize),
+    /// Anything else, in the decoder's words.
+    #[error("it cannot be decoded: {0}")]
+    Broken(String),
+}
+
+impl From<ImageError> for PictureError {
+    fn from(error: ImageError) -> Self {
+        match error {
+            ImageError::Limits(_) => Self::TooLarge,
+            ImageError::Unsupported(_) => Self::UnknownFormat,
+            other => Self::Broken(other.to_string()),
+        }
+    }
+}
+
+/// Width and height of a picture, from its header alone.
+///
+/// # Errors
+/// [`PictureError`] when the header cannot be read or is beyond the limits.
+pub fn size(bytes: &[u8]) -> Result<(u32, u32), PictureError> {
+    let (width, height) = reader(bytes)?.into_dimensions()?;
+    match (width, height) {
+        (0, _) | (_, 0) => Err(PictureError::Empty),
+        _ if width > MAX_SIDE || height > MAX_SIDE => Err(PictureError::TooLarge),
+        _ => Ok((width, height)),
+    }
+}
+
+/// All of a picture.
+///
+/// # Errors
+/// [`PictureError`] when it is malformed, too large, empty, or holds numbers that are not finite.
+pub fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
+    size(bytes)?;
+    let image = reader(bytes)?.decode()?;
+    let (width, height) = (image.width(), image.height());
+    let pixels = match image {
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
+            let linear: Vec<[f32; 3]> = image.to_rgb32f().pixels().map(|p| p.0).collect();
+            let bad = linear.iter().filter(|p| !p.iter().all(|x| x.is_finite())).count();
+            if bad > 0 {
+                return Err(PictureError::NotFinite(bad));
+            }
+            Pixels::Linear(linear)
+        }
+        display => Pixels::Display(display.to_rgb8().pixels().map(|p| p.0).collect()),
+    };
+    Ok(Picture { width, height, pixels })
+}
+
+fn reader(bytes: &[u8]) -> Result<ImageReader<Cursor<&[u8]>>, PictureError> {
+    let mut reader = ImageReader::new(Cursor::new(bytes))
+        .with_guessed_format()
+        .map_err(|error| PictureError::Broken(error.to_string()))?;
+    if reader.format().is_none() {
+        return Err(PictureError::UnknownFormat);
+    }
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    limits.max_alloc = Some(MAX_BYTES);
+    reader.limits(limits);
+    Ok(reader)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ppm_is_read_and_its_size_agrees() {
+        let bytes = b"P6\n2 1\n255\n\x00\x80\xff\x01\x02\x03";
+        assert_eq!(size(bytes).unwrap(), (2, 1));
+        let picture = decode(bytes).unwrap();
+        assert_eq!(picture.pixels, Pixels::Display(vec![[0, 128, 255], [1, 2, 3]]));
+    }
+
+    #[test]
+    fn what_is_no_picture_says_so() {
+        assert!(matches!(size(b"snell 1\n"), Err(PictureError::UnknownFormat)));
+        assert!(matches!(size(b"P6\n9000000 9000000\n255\n"), Err(PictureError::TooLarge)));
+        assert!(matches!(decode(b"P6\n2 2\n255\n\x00"), Err(PictureError::Broken(_))));
+    }
+}

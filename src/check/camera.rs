@@ -1,0 +1,156 @@
+//! Cameras: that they look somewhere, and what they focus on.
+
+use super::error::CheckError;
+use super::{Check, Checked};
+use crate::diag::{Problems, did_you_mean};
+use crate::ir::camera::Fov;
+use crate::ir::{Camera, Film, Filter, Focus, Lens};
+use crate::math::DVec3;
+use crate::schema::{Type, quoted};
+use crate::source::{Span, Spanned};
+use miette::LabeledSpan;
+
+/// The longest side of a film, in pixels.
+const LONGEST_SIDE: u32 = 65_536;
+/// The widest pixel filter, in pixels.
+const WIDEST_FILTER: f64 = 16.0;
+
+/// The camera that the scene is seen through: the one asked for, or the first. `file` is where to say that there is none.
+pub fn camera<'a>(
+    scene: &'a Checked,
+    wanted: Option<&str>,
+    file: Span,
+    problems: &mut Problems,
+) -> Option<&'a Camera> {
+    let start = Span::new(file.start, file.start);
+    let Some(first) = scene.cameras.first() else {
+        // A camera that could not be read was reported.
+        if !problems.has_errors() {
+            problems.push(CheckError::NoCamera { file: start });
+        }
+        return None;
+    };
+    let Some(wanted) = wanted else { return Some(first) };
+    let name = |camera: &'a Camera| camera.name.as_ref().map(|name| name.value.as_str());
+    let found = scene.cameras.iter().find(|camera| name(camera) == Some(wanted));
+    if found.is_none() {
+        let names: Vec<&str> = scene.cameras.iter().filter_map(name).collect();
+        let help = did_you_mean(wanted, names.iter().copied()).unwrap_or_else(|| match names.as_slice() {
+            [] => "its camera has no name; leave `--camera` away".to_owned(),
+            _ => format!("its cameras are {}", quoted(&names)),
+        });
+        problems.push(CheckError::UnknownCamera { name: wanted.to_owned(), file: start, help });
+    }
+    found
+}
+
+impl Check<'_> {
+    /// Checks every camera.
+    pub(super) fn cameras(&mut self) {
+        for camera in &self.scene.cameras {
+            self.camera(camera);
+        }
+    }
+
+    fn camera(&mut self, camera: &Camera) {
+        self.view(camera);
+        self.field_of_view(camera);
+        self.film(&camera.film);
+        match &camera.lens {
+            Lens::Pinhole { focal_length } => self.focal_length(*focal_length),
+            Lens::Thin { focal_length, radius, focus, blades, .. } => {
+                self.focal_length(*focal_length);
+                if radius.value < 0.0 || !radius.value.is_finite() {
+                    let example = "f/2.8";
+                    let (what, found) = ("the aperture", format!("{}", radius.value));
+                    self.report(CheckError::NotPositive { what, found, used: radius.span, example });
+                }
+                if matches!(blades.value, 1 | 2) {
+                    let (found, range) =
+                        (blades.value.to_string(), "0 for a round iris, or at least 3".to_owned());
+                    self.report(CheckError::OutOfRange { what: "`blades`", found, range, used: blades.span });
+                }
+                if let Some(focus) = focus {
+                    self.focus(camera, focus);
+                }
+            }
+        }
+    }
+
+    fn view(&mut self, camera: &Camera) {
+        /// A sine below this leaves no digits for the right-hand side of the picture.
+        const PARALLEL: f64 = 1e-9;
+        let (direction, up) = (camera.direction, camera.up);
+        if direction.value == DVec3::ZERO {
+            let (target, position) = (direction.span, camera.position.span);
+            self.report(CheckError::CameraLooksNowhere { target, position });
+        } else if direction.cross(up.value).length() <= PARALLEL * direction.length() * up.length() {
+            self.report(CheckError::UpAlongView { view: direction.span, up: up.span });
+        }
+    }
+
+    fn field_of_view(&mut self, camera: &Camera) {
+        let Some(Spanned { value: Fov::Vertical(angle) | Fov::Horizontal(angle), span }) = camera.fov else {
+            return;
+        };
+        if !(0.0 < angle && angle < std::f64::consts::PI) {
+            let (found, range) =
+                (Type::Angle.write(angle), "greater than 0deg and less than 180deg".to_owned());
+            self.report(CheckError::OutOfRange { what: "the field of view", found, range, used: span });
+        }
+    }
+
+    fn focal_length(&mut self, focal_length: Option<Spanned<f64>>) {
+        if let Some(length) = focal_length {
+            self.positive("the focal length", length, Type::Length);
+        }
+    }
+
+    fn film(&mut self, film: &Film) {
+        let (width, height) = film.size.value;
+        if !(1..=LONGEST_SIDE).contains(&width) || !(1..=LONGEST_SIDE).contains(&height) {
+            self.report(CheckError::FilmSize { width, height, used: film.size.span });
+        }
+        self.positive("the width of the sensor", film.sensor, Type::Length);
+        let (Filter::Box(radius) | Filter::Tent(radius) | Filter::Gaussian(radius)) = film.filter.value;
+        if !(0.0 < radius && radius <= WIDEST_FILTER) {
+            let (found, range) = (Type::Pixels.write(radius), "greater than 0px and at most 16px".to_owned());
+            let used = film.filter.span;
+            self.report(CheckError::OutOfRange { what: "the radius of the filter", found, range, used });
+        }
+    }
+
+    fn focus(&mut self, camera: &Camera, focus: &Spanned<Focus>) {
+        let distance = match &focus.value {
+            Focus::Distance(distance) => *distance,
+            Focus::Point(point) => (*point - camera.position.value).dot(camera.direction.value),
+            Focus::On(id, name) => return self.focus_on(*id, name, focus.span),
+        };
+        // A camera that looks nowhere has nothing behind it, and has its own report.
+        if distance <= 0.0 && camera.direction.value != DVec3::ZERO {
+            self.report(CheckError::FocusBehind { focus: focus.span, position: camera.position.span });
+        }
+    }
+
+    /// What a lens is focused on has to be in one place.
+    fn focus_on(&mut self, id: u32, name: &str, used: Span) {
+        let named = &self.scene.names[id as usize];
+        if named.count == 1 || (named.count == 0 && !self.whole) {
+            return;
+        }
+        let mut labels = vec![LabeledSpan::new_with_span(Some("focused on here".to_owned()), used)];
+        let placed = |span: &Span| LabeledSpan::new_with_span(Some("placed here".to_owned()), *span);
+        labels.extend(named.placed.iter().map(placed));
+        let (message, help) = match named.count {
+            0 => (
+                format!("the lens is focused on `{name}`, which is not in the picture"),
+                format!("put it there: `place {name}`"),
+            ),
+            count => (
+                format!("the lens is focused on `{name}`, which is in {count} places"),
+                format!("name one of them: `place {name} as hero`, and focus `on hero`"),
+            ),
+        };
+        self.report(CheckError::FocusNotOnce { message, labels, help });
+    }
+}

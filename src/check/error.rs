@@ -1,0 +1,240 @@
+//! What can be wrong with a scene whose words all make sense.
+
+use crate::source::Span;
+use miette::{Diagnostic, LabeledSpan};
+use thiserror::Error;
+
+/// A mistake that `check` finds.
+#[derive(Clone, Error, Diagnostic, Debug)]
+#[expect(missing_docs, reason = "each variant says itself what it is about")]
+pub enum CheckError {
+    // ── Geometry ───────────────────────────────────────────────────────────────────────────────────────────────
+    #[error("{what} is {found}, and must be greater than 0")]
+    #[diagnostic(
+        code(snell::check::not_positive),
+        help("write something greater than 0, such as `{example}`")
+    )]
+    NotPositive {
+        what: &'static str,
+        found: String,
+        #[label("not greater than 0")]
+        used: Span,
+        example: &'static str,
+    },
+    #[error("{what}")]
+    #[diagnostic(code(snell::check::degenerate), help("{help}"))]
+    Degenerate {
+        what: String,
+        #[label("nothing to see of it")]
+        used: Span,
+        help: &'static str,
+    },
+    #[error("`min` is beyond `max` along {axes}")]
+    #[diagnostic(
+        code(snell::check::inside_out_box),
+        help("`min` takes the smaller coordinate of each axis, `max` the larger")
+    )]
+    InsideOutBox {
+        axes: String,
+        #[label("the larger coordinates belong here")]
+        max: Span,
+        #[label("the smaller ones here")]
+        min: Span,
+    },
+    #[error("{what} is {found}: too far from the origin to be drawn")]
+    #[diagnostic(code(snell::check::too_large), help("look for a missing unit; the limit is 1e15m"))]
+    TooLarge {
+        what: &'static str,
+        found: String,
+        #[label("too large")]
+        used: Span,
+    },
+    #[error("{wanted}, and here {found}")]
+    #[diagnostic(code(snell::check::curve_points), help("{help}"))]
+    CurvePoints {
+        wanted: &'static str,
+        found: String,
+        #[label("these points")]
+        used: Span,
+        help: String,
+    },
+    #[error("the profile reaches a radius of {found}")]
+    #[diagnostic(
+        code(snell::check::negative_radius),
+        help("keep the profile on one side of the axis: no point (radius, height) left of 0")
+    )]
+    NegativeRadius {
+        found: String,
+        #[label("crosses the axis")]
+        used: Span,
+    },
+    #[error("the outline crosses itself")]
+    #[diagnostic(
+        code(snell::check::crossing_outline),
+        severity(warning),
+        help("go round the outline in one direction; where it overlaps, it is not clear what is inside")
+    )]
+    CrossingOutline {
+        #[label("crosses itself near point {near}")]
+        used: Span,
+        near: usize,
+    },
+    #[error("this transform flattens what it moves")]
+    #[diagnostic(code(snell::check::singular_transform), help("no factor of a scale may be 0"))]
+    SingularTransform {
+        #[label("leaves no volume")]
+        factor: Span,
+        #[label("of this object")]
+        object: Span,
+    },
+
+    // ── Light and matter ───────────────────────────────────────────────────────────────────────────────────────
+    #[error("an index of refraction of {found} is not of this world")]
+    #[diagnostic(
+        code(snell::check::ior_below_one),
+        help("light is fastest in vacuum, which has 1; water has 1.33, window glass 1.52, diamond 2.42")
+    )]
+    IorBelowOne {
+        found: f64,
+        #[label("below 1")]
+        used: Span,
+    },
+    #[error("{what} sends back {found} times the light that arrives")]
+    #[diagnostic(code(snell::check::creates_energy), help("no channel may be greater than 1"))]
+    CreatesEnergy {
+        what: &'static str,
+        found: f32,
+        #[label("greater than 1")]
+        used: Span,
+    },
+    #[error("{what} is {found}, and light is never negative")]
+    #[diagnostic(code(snell::check::negative_light), help("write 0 for none at all"))]
+    NegativeLight {
+        what: &'static str,
+        found: f64,
+        #[label("less than 0")]
+        used: Span,
+    },
+    #[error("`diffuse` and `specular` together send back {found} times the light that arrives")]
+    #[diagnostic(
+        code(snell::check::phong_energy),
+        severity(warning),
+        help(
+            "both are scaled down so that they share what there is; choose them so that they add up to at most 1"
+        )
+    )]
+    PhongEnergy {
+        found: f32,
+        #[label("with this")]
+        specular: Span,
+        #[label("and this")]
+        diffuse: Span,
+    },
+    #[error("{what} is {found}, and must be {range}")]
+    #[diagnostic(code(snell::check::out_of_range))]
+    OutOfRange {
+        what: &'static str,
+        found: String,
+        range: String,
+        #[label("must be {range}")]
+        used: Span,
+    },
+    #[error("this light is dark")]
+    #[diagnostic(code(snell::check::dark_light), severity(warning), help("{help}"))]
+    DarkLight {
+        #[label("shines with nothing")]
+        used: Span,
+        help: &'static str,
+    },
+    #[error("the scene has no light")]
+    #[diagnostic(
+        code(snell::check::no_light),
+        severity(warning),
+        help("add one, such as `light sphere {{ center: (0m, 3m, 0m), radius: 5cm, power: 60W }}`")
+    )]
+    NoLight {
+        #[label("all that this camera sees is black")]
+        camera: Span,
+    },
+    #[error("path tracing cannot see the caustics that this light throws")]
+    #[diagnostic(
+        code(snell::check::caustics_invisible),
+        severity(warning),
+        help("choose `method: ppm`, or give the light a size: `light sphere {{ .. }}`")
+    )]
+    CausticsInvisible {
+        #[label("no path can find a light without size")]
+        light: Span,
+        #[label("through this")]
+        object: Span,
+        #[label("with this method")]
+        method: Span,
+    },
+
+    // ── Cameras ────────────────────────────────────────────────────────────────────────────────────────────────
+    #[error("the camera looks at itself")]
+    #[diagnostic(code(snell::check::camera_looks_nowhere), help("move `position` and `look_at` apart"))]
+    CameraLooksNowhere {
+        #[label("no direction in this")]
+        target: Span,
+        #[label("the camera is here")]
+        position: Span,
+    },
+    #[error("the camera looks along its own `up`")]
+    #[diagnostic(
+        code(snell::check::up_along_view),
+        help("say what is up in the picture, such as `up: (0, 0, -1)` for a view from above")
+    )]
+    UpAlongView {
+        #[label("the view goes along `up`")]
+        view: Span,
+        #[label("this is up")]
+        up: Span,
+    },
+    #[error("a film of {width} x {height} pixels cannot be made")]
+    #[diagnostic(
+        code(snell::check::film_size),
+        help("each side has from 1 to 65536 pixels: `size: 1024 x 768`")
+    )]
+    FilmSize {
+        width: u32,
+        height: u32,
+        #[label("this size")]
+        used: Span,
+    },
+    #[error("{message}")]
+    #[diagnostic(code(snell::check::focus_not_once))]
+    FocusNotOnce {
+        message: String,
+        #[label(collection)]
+        labels: Vec<LabeledSpan>,
+        #[help]
+        help: String,
+    },
+    #[error("the lens is focused behind the camera")]
+    #[diagnostic(code(snell::check::focus_behind), help("focus on what lies before the camera"))]
+    FocusBehind {
+        #[label("behind the camera")]
+        focus: Span,
+        #[label("the camera is here")]
+        position: Span,
+    },
+    #[error("the scene has no camera")]
+    #[diagnostic(
+        code(snell::check::no_camera),
+        help("add one, such as `camera {{ position: (0m, 1m, 5m), look_at: (0m, 1m, 0m) }}`")
+    )]
+    NoCamera {
+        #[label("nothing looks at this")]
+        file: Span,
+    },
+    #[error("the scene has no camera `{name}`")]
+    #[diagnostic(code(snell::check::unknown_camera))]
+    UnknownCamera {
+        name: String,
+        #[label("nothing here has that name")]
+        file: Span,
+        #[help]
+        help: String,
+    },
+}

@@ -1,0 +1,103 @@
+//! Lights: never negative, seldom dark.
+
+use super::Check;
+use super::error::CheckError;
+use crate::ir::light::EnvironmentRadiance;
+use crate::ir::{Brightness, Light, LightKind, MaterialKind, Method};
+use crate::math::Rgb;
+use crate::schema::Type;
+use crate::source::{Span, Spanned};
+use rustc_hash::FxHashSet;
+
+impl Check<'_> {
+    /// Checks every light, and that there is one.
+    pub(super) fn lights(&mut self) {
+        let mut seen = FxHashSet::default();
+        for light in &self.scene.lights {
+            // A light that a loop placed a hundred times is wrong once.
+            if seen.insert(light.span) {
+                self.light(light);
+            }
+        }
+        self.environment();
+        self.any_light();
+        self.caustics();
+    }
+
+    fn light(&mut self, light: &Light) {
+        match light.kind {
+            LightKind::Sphere { radius, .. } => {
+                self.positive("the radius of this light", radius, Type::Length)
+            }
+            LightKind::Rect { edge_u, edge_v, .. } => {
+                self.spanned("the edges of this light span no area", edge_u, edge_v, light.span);
+            }
+            LightKind::Directional { direction } => self.direction("this light", direction),
+            LightKind::Point { .. } => {}
+        }
+        self.brightness(light.brightness, light.color, light.span);
+    }
+
+    /// Notes negative light, and none at all.
+    pub(super) fn brightness(&mut self, brightness: Spanned<Brightness>, color: Rgb, light: Span) {
+        let (what, least, most) = match brightness.value {
+            Brightness::Power(watts) => ("this power", watts, watts),
+            Brightness::Irradiance(value) => ("this irradiance", value, value),
+            Brightness::Radiance(value) => {
+                ("this radiance", value.min_component().into(), value.max_component().into())
+            }
+            Brightness::Intensity(value) => {
+                ("this intensity", value.min_component().into(), value.max_component().into())
+            }
+        };
+        if least < 0.0 {
+            self.report(CheckError::NegativeLight { what, found: least, used: brightness.span });
+        } else if color.min_component() < 0.0 {
+            let (what, found) = ("a channel of this light's colour", color.min_component().into());
+            self.report(CheckError::NegativeLight { what, found, used: light });
+        } else if most == 0.0 {
+            let help = "give it a power, such as `60W`, or take it away";
+            self.report(CheckError::DarkLight { used: brightness.span, help });
+        } else if color.is_black() {
+            let help = "give it a colour other than black, or take it away";
+            self.report(CheckError::DarkLight { used: light, help });
+        }
+    }
+
+    fn environment(&mut self) {
+        let Some(environment) = &self.scene.environment else { return };
+        if environment.scale.value < 0.0 {
+            let (what, found) = ("the scale of the environment", environment.scale.value);
+            self.report(CheckError::NegativeLight { what, found, used: environment.scale.span });
+        }
+        if let EnvironmentRadiance::Constant(radiance) = environment.radiance
+            && radiance.min_component() < 0.0
+        {
+            let (what, found) = ("the radiance of the environment", radiance.min_component().into());
+            self.report(CheckError::NegativeLight { what, found, used: environment.span });
+        }
+    }
+
+    fn any_light(&mut self) {
+        let lit = !self.scene.lights.is_empty()
+            || self.scene.environment.is_some()
+            || self.placed_materials().any(|(kind, _)| matches!(kind, MaterialKind::Emissive { .. }));
+        if let (false, true, Some(camera)) = (lit, self.whole, self.scene.cameras.first()) {
+            self.report(CheckError::NoLight { camera: camera.span });
+        }
+    }
+
+    /// A light without size is never hit by chance, so path tracing finds no way to it through glass.
+    fn caustics(&mut self) {
+        let Some(method) = self.scene.render.method.filter(|method| method.value == Method::Pt) else {
+            return;
+        };
+        let sizeless =
+            |light: &&Light| matches!(light.kind, LightKind::Point { .. } | LightKind::Directional { .. });
+        let Some(light) = self.scene.lights.iter().find(sizeless).map(|light| light.span) else { return };
+        let glass = self.placed_materials().find(|(kind, _)| matches!(kind, MaterialKind::Glass { .. }));
+        if let Some((_, object)) = glass {
+            self.report(CheckError::CausticsInvisible { light, object, method: method.span });
+        }
+    }
+}

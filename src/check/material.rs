@@ -1,0 +1,109 @@
+//! Materials and textures: nothing sends back more light than arrives.
+
+use super::Check;
+use super::error::CheckError;
+use crate::ir::material::CheckerCells;
+use crate::ir::{Brightness, Input, Material, MaterialKind, MetalColor, Projection, Texture, TextureKind};
+use crate::math::Rgb;
+use crate::schema::Type;
+use crate::source::Spanned;
+
+impl Check<'_> {
+    /// Checks every material and texture that was written, placed or not.
+    pub(super) fn materials(&mut self) {
+        for material in self.scene.materials.iter() {
+            self.material(material);
+        }
+        for texture in self.scene.textures.iter() {
+            self.texture(texture);
+        }
+    }
+
+    fn material(&mut self, material: &Material) {
+        match &material.kind {
+            MaterialKind::Diffuse { color } => self.albedo("this surface", *color),
+            MaterialKind::Phong { diffuse, specular, .. } => self.phong(*diffuse, *specular),
+            MaterialKind::Mirror { color } => self.albedo("this mirror", *color),
+            MaterialKind::Metal { color, roughness } => {
+                if let MetalColor::Color(color) = color {
+                    self.albedo("this metal", *color);
+                }
+                self.share("`roughness`", *roughness);
+            }
+            MaterialKind::Glass { ior, tint, .. } => {
+                if ior.value < 1.0 {
+                    self.report(CheckError::IorBelowOne { found: ior.value, used: ior.span });
+                }
+                self.reflectance("this glass", *tint);
+            }
+            MaterialKind::Emissive { brightness, color } => self.glow(*brightness, *color),
+            MaterialKind::Mix { amount, .. } => self.share("`amount`", *amount),
+        }
+    }
+
+    fn phong(&mut self, diffuse: Input, specular: Input) {
+        self.albedo("the matt part of this surface", diffuse);
+        self.albedo("the gloss of this surface", specular);
+        let (Input::Constant(matt), Input::Constant(gloss)) = (diffuse, specular) else { return };
+        let found = (matt.value + gloss.value).max_component();
+        let single = matt.value.max_component().max(gloss.value.max_component());
+        // Colours of eight bits add up to a hair more than 1.
+        if found > 1.0 + 1e-4 && single <= 1.0 {
+            self.report(CheckError::PhongEnergy { found, specular: gloss.span, diffuse: matt.span });
+        }
+    }
+
+    /// An input that says how much light is sent back; a checker's colours count, pictures never exceed 1.
+    fn albedo(&mut self, what: &'static str, input: Input) {
+        match input {
+            Input::Constant(color) => self.reflectance(what, color),
+            Input::Texture(handle) => {
+                if let TextureKind::Checker(checker) = &self.scene.textures[handle.value].kind {
+                    self.reflectance(what, checker.a);
+                    self.reflectance(what, checker.b);
+                }
+            }
+        }
+    }
+
+    fn reflectance(&mut self, what: &'static str, color: Spanned<Rgb>) {
+        let (least, most) = (color.min_component(), color.max_component());
+        if least < 0.0 {
+            let what = "a channel of this colour";
+            self.report(CheckError::NegativeLight { what, found: least.into(), used: color.span });
+        } else if most > 1.0 {
+            self.report(CheckError::CreatesEnergy { what, found: most, used: color.span });
+        }
+    }
+
+    /// An input in [0, 1].
+    fn share(&mut self, what: &'static str, input: Input) {
+        let Input::Constant(value) = input else { return };
+        if !(0.0..=1.0).contains(&value.r) {
+            let (found, range) = (value.r.to_string(), "from 0 to 1".to_owned());
+            self.report(CheckError::OutOfRange { what, found, range, used: value.span });
+        }
+    }
+
+    fn glow(&mut self, brightness: Spanned<Brightness>, color: Rgb) {
+        self.brightness(brightness, color, brightness.span);
+    }
+
+    fn texture(&mut self, texture: &Texture) {
+        match &texture.kind {
+            TextureKind::Checker(checker) => {
+                let least = match checker.cells {
+                    CheckerCells::Uv(cells) => cells.min_element(),
+                    CheckerCells::Solid(size) => size,
+                };
+                let size = Spanned::new(least, texture.span);
+                self.positive("the size of this checker's cells", size, Type::Number);
+            }
+            TextureKind::Image(image) => {
+                if let Projection::Planar { u, v, .. } = image.projection {
+                    self.spanned("the vectors of this projection span no area", u, v, texture.span);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Shapes: sizes greater than 0, edges that span something.
+
+use super::Check;
+use super::error::CheckError;
+use crate::ir::{RevolveMethod, Shape, ShapeKind};
+use crate::math::DVec3;
+use crate::schema::Type;
+use crate::source::{Span, Spanned};
+
+/// Farther out, single precision has no room for squares.
+const FARTHEST: f64 = 1e15;
+
+impl Check<'_> {
+    /// Checks every shape that is placed.
+    pub(super) fn shapes(&mut self) {
+        for shape in self.scene.shapes.iter() {
+            self.shape(shape);
+        }
+    }
+
+    fn shape(&mut self, shape: &Shape) {
+        match &shape.kind {
+            ShapeKind::Sphere { center, radius } => {
+                self.positive("the radius of this sphere", *radius, Type::Length);
+                self.near("the centre of this sphere", Spanned::new(*center, shape.span));
+                self.near("the radius of this sphere", radius.map(DVec3::splat));
+            }
+            ShapeKind::Plane { normal, .. } => self.direction("the normal of this plane", *normal),
+            ShapeKind::Disk { center, normal, radius } => {
+                self.positive("the radius of this disk", *radius, Type::Length);
+                self.direction("the normal of this disk", *normal);
+                self.near("the centre of this disk", Spanned::new(*center, shape.span));
+            }
+            ShapeKind::Quad { origin, edge_u, edge_v } => {
+                let what = "the edges of this quad span no area";
+                self.spanned(what, edge_u.value, edge_v.value, edge_u.span.to(edge_v.span));
+                self.near("a corner of this quad", Spanned::new(*origin, shape.span));
+                self.near("an edge of this quad", *edge_u);
+                self.near("an edge of this quad", *edge_v);
+            }
+            ShapeKind::Box { min, max } => self.box_shape(*min, *max),
+            ShapeKind::Triangle { corners: [a, b, c] } => {
+                let what = "the corners of this triangle lie on a line";
+                self.spanned(what, b.value - a.value, c.value - a.value, a.span.to(c.span));
+                for corner in [a, b, c] {
+                    self.near("a corner of this triangle", *corner);
+                }
+            }
+            ShapeKind::Mesh { scale, .. } => self.positive("the scale of this mesh", *scale, Type::Number),
+            ShapeKind::Revolve { profile, method } => {
+                self.profile(profile);
+                if let RevolveMethod::Tessellated(Some(tolerance)) = method {
+                    self.positive("the tolerance of this revolve", *tolerance, Type::Length);
+                }
+            }
+            ShapeKind::Extrude { outline, holes, depth } => {
+                self.positive("the depth of this extrude", *depth, Type::Length);
+                self.outline(outline);
+                holes.iter().for_each(|hole| self.outline(hole));
+            }
+        }
+    }
+
+    fn box_shape(&mut self, min: Spanned<DVec3>, max: Spanned<DVec3>) {
+        let size = max.value - min.value;
+        let axes = |wanted: fn(f64) -> bool| -> Vec<&str> {
+            ["x", "y", "z"]
+                .into_iter()
+                .zip(size.to_array())
+                .filter(|&(_, d)| wanted(d))
+                .map(|(name, _)| name)
+                .collect()
+        };
+        let (inverted, flat) = (axes(|d| d < 0.0), axes(|d| d == 0.0));
+        if !inverted.is_empty() {
+            let axes = inverted.join(" and ");
+            self.report(CheckError::InsideOutBox { axes, min: min.span, max: max.span });
+        } else if !flat.is_empty() {
+            let what = format!("this box has no extent along {}", flat.join(" and "));
+            self.report(CheckError::Degenerate {
+                what,
+                used: max.span,
+                help: "for something flat use a `quad`",
+            });
+        }
+        self.near("a corner of this box", min);
+        self.near("a corner of this box", max);
+    }
+
+    /// Notes a direction of length 0.
+    pub(super) fn direction(&mut self, what: &'static str, direction: Spanned<DVec3>) {
+        if direction.value == DVec3::ZERO {
+            let what = format!("{what} points nowhere");
+            let help = "write a direction such as `(0, 1, 0)`";
+            self.report(CheckError::Degenerate { what, used: direction.span, help });
+        }
+    }
+
+    /// Notes two edges that are parallel, or of length 0.
+    pub(super) fn spanned(&mut self, what: &'static str, u: DVec3, v: DVec3, used: Span) {
+        /// A sine below this is rounding error.
+        const PARALLEL: f64 = 1e-12;
+        if u.cross(v).length() <= PARALLEL * u.length() * v.length() {
+            let help = "move the corners apart";
+            self.report(CheckError::Degenerate { what: what.to_owned(), used, help });
+        }
+    }
+
+    fn near(&mut self, what: &'static str, point: Spanned<DVec3>) {
+        let farthest = point.value.abs().max_element();
+        if farthest > FARTHEST {
+            let found = Type::Length.write(farthest);
+            self.report(CheckError::TooLarge { what, found, used: point.span });
+        }
+    }
+}

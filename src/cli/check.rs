@@ -1,0 +1,41 @@
+//! `snell check`: every mistake of scenes, and no ray.
+
+use super::args::{MessageArgs, SceneArgs};
+use super::session::Session;
+use super::{Exit, fail};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Arguments of `snell check`.
+#[derive(Args, Debug)]
+pub struct CheckArgs {
+    /// The scenes; `-` is standard input
+    #[arg(required = true, value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    scene_args: SceneArgs,
+    #[command(flatten)]
+    messages: MessageArgs,
+}
+
+/// Checks each scene on its own.
+pub fn run(args: &CheckArgs) -> Exit {
+    let mut exit = Exit::Done;
+    for scene in &args.scenes {
+        let mut session = match Session::open(scene, &args.scene_args) {
+            Ok(session) => session,
+            Err(reason) => {
+                exit = fail(reason);
+                continue;
+            }
+        };
+        if let Some(checked) = session.compile() {
+            let _ = crate::load::load(&checked, &session.sources, &session.files, &mut session.problems);
+        }
+        if !session.is_good() && exit == Exit::Done {
+            exit = Exit::SceneWrong;
+        }
+        session.report(&args.messages, true);
+    }
+    exit
+}

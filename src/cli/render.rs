@@ -1,0 +1,251 @@
+//! `snell render`: from a scene to a picture.
+
+use super::args::{self, MessageArgs, Method, SceneArgs};
+use super::progress::Bar;
+use super::session::Session;
+use super::summary::Summary;
+use super::{Exit, fail, interrupt, note};
+use crate::check::Checked;
+use crate::ir;
+use crate::lower::Lowered;
+use crate::output::{Display, Exposure, Frame, Target, Tone};
+use crate::plan::Plan;
+use crate::render::film::Region;
+use crate::render::{Outcome, Settings, Stop, StoppedBy};
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Arguments of `snell render`.
+#[derive(Args, Debug)]
+pub struct RenderArgs {
+    /// The scene; `-` is standard input
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// Write the picture here: .png, .exr, .hdr or .ppm; may be repeated [default: the scene's name with .png]
+    #[arg(short, long = "output", value_name = "FILE")]
+    outputs: Vec<PathBuf>,
+    #[command(flatten)]
+    scene_args: SceneArgs,
+    /// Look through this camera
+    #[arg(long, value_name = "NAME")]
+    camera: Option<String>,
+    /// How light is simulated [default: as the scene says]
+    #[arg(long, value_name = "METHOD")]
+    method: Option<Method>,
+    /// Stop after this many passes, one camera sample a pixel each
+    #[arg(long, visible_alias = "spp", value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    passes: Option<u32>,
+    /// Stop after this time, such as `90s` or `5min`
+    #[arg(long, value_name = "TIME", value_parser = args::seconds)]
+    time: Option<f64>,
+    /// Stop when the picture's relative error is below this, such as `1%`
+    #[arg(long, value_name = "SHARE", value_parser = args::share)]
+    error: Option<f64>,
+    /// The size of the picture in pixels, such as `640x480`
+    #[arg(long, value_name = "WxH", value_parser = args::size)]
+    size: Option<(u32, u32)>,
+    /// Render only this part: column and row of its upper left corner, width and height
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
+    crop: Option<Region>,
+    /// How many threads [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// The seed of all random numbers
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Write facts about the render as JSON
+    #[arg(long, value_name = "FILE.json")]
+    report: Option<PathBuf>,
+    #[command(flatten)]
+    messages: MessageArgs,
+}
+
+/// Passes of a scene that does not say when to stop.
+const DEFAULT_PASSES: u32 = 64;
+
+/// Renders a scene.
+pub fn run(args: &RenderArgs) -> Exit {
+    let start = Instant::now();
+    // What can be wrong with the command is said before any work is done.
+    let mut targets = match open_targets(args) {
+        Ok(targets) => targets,
+        Err(reason) => return fail(reason),
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(args.threads.unwrap_or(0))).build();
+    let pool = match pool {
+        Ok(pool) => pool,
+        Err(error) => return fail(format_args!("threads cannot be started: {error}")),
+    };
+    let mut session = match Session::open(&args.scene, &args.scene_args) {
+        Ok(session) => session,
+        Err(reason) => return fail(reason),
+    };
+
+    let ready = session.compile().and_then(|checked| {
+        let camera = session.camera(&checked, args.camera.as_deref())?.clone();
+        pool.install(|| make_ready(checked, camera, args, &mut session, start))
+    });
+    let good = session.is_good();
+    session.report(&args.messages, false);
+    let Some(ready) = ready.filter(|_| good) else { return Exit::SceneWrong };
+
+    interrupt::listen();
+    let settings = ready.settings(args);
+    let bar = Bar::new(settings.stop, args.messages.quiet);
+    let outcome = pool.install(|| crate::render::render(&ready.lowered.world, &settings, &bar));
+    bar.finish();
+
+    let files = match write(&mut targets, &outcome, &ready) {
+        Ok(()) if outcome.stats.passes == 0 => Vec::new(), // nothing was seen: no picture is better than a black one
+        Ok(()) => match targets.into_iter().map(Target::finish).collect::<Result<Vec<_>, _>>() {
+            Ok(paths) => paths.iter().map(|path| path.display().to_string()).collect(),
+            Err(error) => return fail(error),
+        },
+        Err(error) => return fail(error),
+    };
+    conclude(args, &session.name, &files, &ready, &outcome)
+}
+
+/// A scene ready to be rendered.
+struct Ready {
+    plan: Plan,
+    lowered: Lowered,
+    camera: ir::Camera,
+    render: ir::Render,
+    compile_seconds: f64,
+    build_seconds: f64,
+}
+
+fn make_ready(
+    checked: Checked,
+    mut camera: ir::Camera,
+    args: &RenderArgs,
+    session: &mut Session,
+    start: Instant,
+) -> Option<Ready> {
+    if let Some(size) = args.size {
+        camera.film.size.value = size;
+    }
+    let compiled = start.elapsed().as_secs_f64();
+    let loaded = crate::load::load(&checked, &session.sources, &session.files, &mut session.problems)?;
+    if !session.is_good() {
+        return None;
+    }
+    let forced = match args.method {
+        None => None,
+        Some(Method::Pt) => Some(ir::Method::Pt),
+        Some(Method::Ppm) => Some(ir::Method::Ppm),
+        Some(Method::Auto) => Some(crate::plan::suited(&loaded, Some(&camera))),
+    };
+    let plan = crate::plan::plan(&loaded, Some(&camera), forced);
+    let lowered = crate::lower::lower(&loaded, &plan, &camera, &session.files, &mut session.problems)?;
+    let build_seconds = start.elapsed().as_secs_f64() - compiled;
+    let render = checked.render.clone();
+    Some(Ready { plan, lowered, camera, render, compile_seconds: compiled, build_seconds })
+}
+
+impl Ready {
+    /// A stop flag replaces the scene's stop.
+    fn settings(&self, args: &RenderArgs) -> Settings {
+        let flags = Stop { passes: args.passes, seconds: args.time, error: args.error };
+        let written = Stop {
+            passes: self.render.stop.passes.map(|passes| passes.value),
+            seconds: self.render.stop.seconds.map(|seconds| seconds.value),
+            error: self.render.stop.error.map(|error| error.value),
+        };
+        let stop = [flags, written].into_iter().find(|stop| *stop != Stop::default());
+        Settings {
+            method: self.lowered.method,
+            max_depth: self.plan.depth,
+            seed: args.seed.or(self.render.seed.map(|seed| seed.value)).unwrap_or(0),
+            stop: stop.unwrap_or(Stop { passes: Some(DEFAULT_PASSES), ..Stop::default() }),
+            crop: args.crop,
+        }
+    }
+
+    fn display(&self) -> Display {
+        let film = &self.camera.film;
+        Display {
+            exposure: match film.exposure.value {
+                ir::Exposure::Ev(ev) => Exposure::Ev(ev as f32),
+                ir::Exposure::Auto => Exposure::Auto,
+            },
+            tone: match film.tone.value {
+                ir::Tone::Srgb => Tone::Srgb,
+                ir::Tone::Linear => Tone::Linear,
+                ir::Tone::Reinhard => Tone::Reinhard,
+                ir::Tone::Agx => Tone::Agx,
+            },
+        }
+    }
+}
+
+fn open_targets(args: &RenderArgs) -> Result<Vec<Target>, String> {
+    let default = || match args.scene.to_str() {
+        Some("-") => vec![PathBuf::from("out.png")],
+        _ => vec![args.scene.with_extension("png")],
+    };
+    let paths = if args.outputs.is_empty() { default() } else { args.outputs.clone() };
+    if let Some(report) = &args.report {
+        writable(report)?;
+    }
+    paths.iter().map(|path| Target::open(path).map_err(|error| error.to_string())).collect()
+}
+
+fn writable(report: &Path) -> Result<(), String> {
+    let folder = report.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if folder.is_dir() && !report.is_dir() {
+        return Ok(());
+    }
+    Err(format!("`{}` cannot be written: there is no folder for it", report.display()))
+}
+
+fn write(targets: &mut [Target], outcome: &Outcome, ready: &Ready) -> Result<(), crate::output::OutputError> {
+    let region = outcome.film.region();
+    let variance = outcome.film.variance().unwrap_or_default();
+    let facts = [
+        ("software", format!("snell {}", env!("CARGO_PKG_VERSION"))),
+        ("passes", outcome.stats.passes.to_string()),
+    ];
+    let frame = Frame {
+        width: region.width,
+        height: region.height,
+        radiance: outcome.film.mean(),
+        standard_error: variance.iter().map(|pixel| pixel.map(f32::sqrt)).collect(),
+        facts: facts.map(|(name, value)| (name.to_owned(), value)).to_vec(),
+    };
+    let display = ready.display();
+    targets.iter_mut().try_for_each(|target| target.write(&frame, &display))
+}
+
+fn conclude(args: &RenderArgs, scene: &str, files: &[String], ready: &Ready, outcome: &Outcome) -> Exit {
+    let summary = Summary {
+        scene,
+        files,
+        plan: &ready.plan,
+        method: &ready.lowered.method,
+        outcome,
+        compile_seconds: ready.compile_seconds,
+        build_seconds: ready.build_seconds,
+    };
+    if !args.messages.quiet {
+        note(summary.human());
+    }
+    if let Some(path) = &args.report {
+        let text = format!("{:#}\n", summary.json());
+        if let Err(error) = crate::output::replace(path, text.as_bytes()) {
+            return fail(error);
+        }
+    }
+    if outcome.stopped_by == StoppedBy::Cancelled { Exit::Interrupted } else { Exit::Done }
+}
+
+/// `X,Y,W,H`.
+fn crop(text: &str) -> Result<Region, String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, width, height]) if width > 0 && height > 0 => Ok(Region { x, y, width, height }),
+        _ => Err("write X,Y,WIDTH,HEIGHT in pixels, such as `100,50,64,64`".to_owned()),
+    }
+}

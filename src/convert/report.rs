@@ -1,0 +1,80 @@
+//! What became of every word and number of a file.
+
+use super::parse::Span;
+use std::fmt::Write;
+
+/// What became of a stretch of the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// It says the same in the result; the text names where.
+    Mapped(String),
+    /// It is in the result, but not exactly; the text says how.
+    Approximated(String),
+    /// The original program reads it and does nothing with it.
+    Ignored(String),
+    /// It is not in the result; the text says why.
+    Dropped(String),
+}
+
+impl Outcome {
+    /// The outcome's name and what is said of it.
+    pub fn parts(&self) -> (&'static str, &str) {
+        match self {
+            Self::Mapped(to) => ("mapped", to),
+            Self::Approximated(how) => ("approximated", how),
+            Self::Ignored(why) => ("ignored", why),
+            Self::Dropped(why) => ("dropped", why),
+        }
+    }
+}
+
+/// A stretch of the file and what became of it. The fates of a file do not overlap, and every word and number
+/// lies in one of them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fate {
+    /// The bytes in question.
+    pub span: Span,
+    /// What became of them.
+    pub outcome: Outcome,
+}
+
+/// Renders fates as a table: line, the words, what became of them.
+///
+/// The report opens with the count of each outcome. Long stretches are shown by their beginning.
+pub fn render(text: &str, fates: &[Fate]) -> String {
+    let mut out = summary(fates);
+    out.push_str("\n\n line  in the file                           what became of it\n");
+    let mut line = 1;
+    let mut seen = 0;
+    for fate in fates {
+        line += text[seen..fate.span.start].bytes().filter(|&byte| byte == b'\n').count();
+        seen = fate.span.start;
+        let (name, detail) = fate.outcome.parts();
+        let _ = writeln!(out, "{line:>5}  {:<36}  {name}: {detail}", excerpt(&text[fate.span.clone()]));
+    }
+    out
+}
+
+/// The count of each outcome: "12 mapped, 3 approximated, 0 ignored, 1 dropped".
+pub fn summary(fates: &[Fate]) -> String {
+    let count = |name| fates.iter().filter(|fate| fate.outcome.parts().0 == name).count();
+    let counts =
+        ["mapped", "approximated", "ignored", "dropped"].map(|name| format!("{} {name}", count(name)));
+    counts.join(", ")
+}
+
+/// The words of a stretch on one line, at most 36 characters.
+fn excerpt(text: &str) -> String {
+    const WIDTH: usize = 36;
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+        if line.chars().count() > WIDTH {
+            return line.chars().take(WIDTH - 2).chain("..".chars()).collect();
+        }
+    }
+    line
+}

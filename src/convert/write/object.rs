@@ -1,0 +1,127 @@
+//! Objects: shapes with their places and materials.
+
+use super::glossary::Glossary;
+use super::layout::{Entry, Value};
+use super::picture;
+use super::text::{number, point, rounded, rounded_point, string};
+use crate::convert::model::{Asset, Curve, Look, Object, Profile, Scene, Shape, Step};
+use crate::math::DVec3;
+
+/// The objects in their order.
+pub fn entries(objects: &[Object], scene: &Scene, names: &Glossary) -> Vec<Entry> {
+    objects.iter().map(|object| entry(object, scene, names)).collect()
+}
+
+fn entry(object: &Object, scene: &Scene, names: &Glossary) -> Entry {
+    let look = look_of(object, scene);
+    let placement = placement(object, look, names);
+    let mut notes = object.notes.clone();
+    notes.extend(object.picture().and_then(picture::note));
+    let value = match (&object.shape, names.shape(&object.shape)) {
+        (Shape::Group(objects), _) => {
+            let inner = entries(objects, scene, names);
+            Value::Group("group ".into(), placement.into_iter().chain(inner).collect())
+        }
+        (_, Some(name)) => Value::Block(format!("place {name} "), placement),
+        (shape, None) => shape_value(shape, look, placement),
+    };
+    Entry::item(value).noted(&notes)
+}
+
+/// A shape with its own fields and then those of its place. Groups have none of their own.
+pub fn shape_value(shape: &Shape, look: Option<&Look>, placement: Vec<Entry>) -> Value {
+    let points = |fields: &[(&str, &DVec3)]| -> Vec<Entry> {
+        fields.iter().map(|(name, p)| Entry::field(name, point(**p))).collect()
+    };
+    let (head, mut fields) = match shape {
+        Shape::Sphere { center, radius } => {
+            let center = Entry::field("center", point(*center));
+            ("sphere ", vec![center, Entry::field("radius", number(*radius))])
+        }
+        Shape::Plane { normal, offset, .. } => ("plane ", plane_fields(*normal, *offset, look)),
+        Shape::Triangle { corners: [a, b, c] } => ("triangle ", points(&[("a", a), ("b", b), ("c", c)])),
+        Shape::Quad { origin, edge_u, edge_v } => {
+            ("quad ", points(&[("origin", origin), ("edge_u", edge_u), ("edge_v", edge_v)]))
+        }
+        Shape::Disk { center, normal, radius } => {
+            let mut fields = points(&[("center", center), ("normal", normal)]);
+            fields.push(Entry::field("radius", number(*radius)));
+            ("disk ", fields)
+        }
+        Shape::Cuboid { min, max } => ("box ", points(&[("min", min), ("max", max)])),
+        Shape::Mesh { file } => ("mesh ", mesh_fields(file)),
+        Shape::Revolve { profile } => ("revolve ", vec![Entry::field("profile", profile_value(profile))]),
+        Shape::Group(_) => ("group ", Vec::new()),
+    };
+    fields.extend(placement);
+    Value::Block(head.into(), fields)
+}
+
+/// The fields that every object has: `transform` and `material`.
+fn placement(object: &Object, look: Option<&Look>, names: &Glossary) -> Vec<Entry> {
+    let mut fields = Vec::new();
+    if !object.steps.is_empty() {
+        let steps = object.steps.iter().map(step).collect(); // applied from left to right
+        fields.push(Entry::field("transform", Value::Chain(steps)));
+    }
+    if let Some(index) = object.material {
+        let pictured = look.and_then(|look| picture::material(object, look));
+        fields.push(Entry::field("material", pictured.unwrap_or_else(|| names.material(index).into())));
+    }
+    fields
+}
+
+fn look_of<'a>(object: &Object, scene: &'a Scene) -> Option<&'a Look> {
+    Some(&scene.materials.get(object.material?)?.look)
+}
+
+/// The original has flat normals; those of the file, if any, are skipped.
+fn mesh_fields(file: &Asset) -> Vec<Entry> {
+    let mut fields = vec![Entry::field("file", string(&file.path)), Entry::field("smooth", "false")];
+    if file.missing {
+        fields.push(Entry::field("missing", "skip"));
+    }
+    fields
+}
+
+/// `y: 0` where the plane is square to an axis and its sides do not matter, else `normal` and `offset`.
+fn plane_fields(normal: DVec3, offset: f64, look: Option<&Look>) -> Vec<Entry> {
+    let has_sides = matches!(look, Some(Look::Emissive { .. } | Look::Glass { .. } | Look::Mix { .. }));
+    for (axis, n) in [("x", normal.x), ("y", normal.y), ("z", normal.z)] {
+        if n == 1.0 || (n == -1.0 && !has_sides) {
+            return vec![Entry::field(axis, rounded_or_exact(n * offset))];
+        }
+    }
+    vec![Entry::field("normal", rounded_point(normal)), Entry::field("offset", rounded_or_exact(offset))]
+}
+
+/// Short where the file was short, rounded where the number was computed.
+fn rounded_or_exact(x: f64) -> String {
+    let (exact, short) = (number(x), rounded(x));
+    if exact.len() <= short.len() { exact } else { short }
+}
+
+/// Four points make one cubic, whichever way they are read.
+fn profile_value(profile: &Profile) -> Value {
+    let points =
+        profile.points.iter().map(|(radius, height)| format!("({}, {})", number(*radius), number(*height)));
+    let (open, close) = match profile.kind {
+        Curve::Bspline => ("bspline [", "]"),
+        Curve::Bezier if profile.points.len() == 4 => ("bezier [", "]"),
+        Curve::Bezier => ("bezier(degree: all, [", "])"),
+    };
+    Value::List(open.into(), points.collect(), close.into())
+}
+
+fn step(step: &Step) -> String {
+    match step {
+        Step::Scale(by) if by.x == by.y && by.y == by.z => format!("scale({})", number(by.x)),
+        Step::Scale(by) => format!("scale{}", point(*by)),
+        Step::Translate(by) => format!("translate{}", point(*by)),
+        Step::RotateAxis(axis, degrees) => {
+            format!("rotate_{}({}deg)", ["x", "y", "z"][*axis], number(*degrees))
+        }
+        Step::Rotate(axis, degrees) => format!("rotate({}, {}deg)", point(*axis), number(*degrees)),
+        Step::Matrix(rows) => format!("matrix([{}])", rows.map(rounded).join(", ")),
+    }
+}

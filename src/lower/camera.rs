@@ -1,0 +1,108 @@
+//! The camera, with its lens focused.
+
+use super::{LowerError, object_bounds};
+use crate::ir::camera::Fov;
+use crate::ir::{self, Focus, Lens};
+use crate::load::Loaded;
+use crate::math::DVec3;
+use crate::render::camera::{CameraSpec, Filter, LensSpec};
+use crate::source::{Span, Spanned};
+
+/// A camera ready to be built.
+pub struct Seen {
+    /// For the engine.
+    pub spec: CameraSpec,
+    /// The size of a pixel at the distance of what the camera looks at, in metres.
+    pub pixel_footprint: f64,
+}
+
+/// The field of view of a camera that says nothing about it: 45° upwards.
+const DEFAULT_FOV: f64 = std::f64::consts::FRAC_PI_4;
+
+/// Places the camera relative to the scene's `center` and focuses it.
+pub fn camera(camera: &ir::Camera, loaded: &Loaded<'_>, center: DVec3) -> Result<Seen, LowerError> {
+    let forward = camera.direction.value.normalize();
+    let (width, height) = camera.film.size.value;
+    let aspect = f64::from(width) / f64::from(height);
+    let tan_half_fov_x = tan_half_fov_x(camera, aspect);
+    let lens = match &camera.lens {
+        Lens::Pinhole { .. } => None,
+        Lens::Thin { radius, focus, blades, rotation, .. } => {
+            let distance =
+                focus.as_ref().map(|focus| focus_distance(focus, camera, forward, loaded)).transpose()?;
+            distance.map(|distance| LensSpec {
+                radius: radius.value as f32,
+                focus_distance: distance as f32,
+                blades: blades.value,
+                rotation: rotation.value as f32,
+            })
+        }
+    };
+    let spec = CameraSpec {
+        position: (camera.position.value - center).as_vec3(),
+        direction: forward.as_vec3(),
+        up: camera.up.value.as_vec3(),
+        tan_half_fov_x: tan_half_fov_x as f32,
+        tan_half_fov_y: (tan_half_fov_x / aspect) as f32,
+        lens,
+        width,
+        height,
+        filter: filter(camera.film.filter.value),
+    };
+    let distance = match lens {
+        Some(lens) => f64::from(lens.focus_distance),
+        None => (center - camera.position.value).length(),
+    };
+    Ok(Seen { spec, pixel_footprint: 2.0 * tan_half_fov_x * distance / f64::from(width) })
+}
+
+fn tan_half_fov_x(camera: &ir::Camera, aspect: f64) -> f64 {
+    let focal_length = match &camera.lens {
+        Lens::Pinhole { focal_length } | Lens::Thin { focal_length, .. } => focal_length,
+    };
+    match (camera.fov, focal_length) {
+        (Some(fov), _) => match fov.value {
+            Fov::Vertical(angle) => libm::tan(angle / 2.0) * aspect,
+            Fov::Horizontal(angle) => libm::tan(angle / 2.0),
+        },
+        (None, Some(focal_length)) => camera.film.sensor.value / (2.0 * focal_length.value),
+        (None, None) => libm::tan(DEFAULT_FOV / 2.0) * aspect,
+    }
+}
+
+/// The distance of the plane in focus, along the view axis, in metres.
+fn focus_distance(
+    focus: &Spanned<Focus>,
+    camera: &ir::Camera,
+    forward: DVec3,
+    loaded: &Loaded<'_>,
+) -> Result<f64, LowerError> {
+    let along = |p: DVec3| (p - camera.position.value).dot(forward);
+    let distance = match &focus.value {
+        Focus::Distance(distance) => *distance,
+        Focus::Point(p) => along(*p),
+        Focus::On(id, name) => along(middle(*id, name, focus.span, loaded)?),
+    };
+    if distance > 0.0 {
+        return Ok(distance);
+    }
+    Err(LowerError::BadFocus { reason: "that is behind the camera".to_owned(), focus: focus.span })
+}
+
+/// The middle of the named objects' box.
+fn middle(id: u32, name: &str, focus: Span, loaded: &Loaded<'_>) -> Result<DVec3, LowerError> {
+    let named = loaded.scene.objects.iter().filter(|object| object.names.contains(&id));
+    let boxes = named.filter_map(|object| object_bounds(object, loaded));
+    boxes
+        .reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
+        .map(|(min, max)| (min + max) / 2.0)
+        .ok_or_else(|| LowerError::BadFocus { reason: format!("`{name}` has no middle"), focus })
+}
+
+fn filter(filter: ir::Filter) -> Filter {
+    match filter {
+        ir::Filter::Box(radius) => Filter::Box { radius: radius as f32 },
+        ir::Filter::Tent(radius) => Filter::Tent { radius: radius as f32 },
+        ir::Filter::Gaussian(radius) => Filter::Gaussian { radius: radius as f32 },
+    }
+}

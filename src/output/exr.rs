@@ -1,0 +1,28 @@
+//! OpenEXR: radiance and its standard error as layers of one file.
+
+use super::Frame;
+use crate::math::Rgb;
+use exr::prelude::*;
+use std::io::{Seek, Write};
+
+/// Writes the picture: channels `R G B`, and `error.R error.G error.B` where the standard error is known.
+pub fn encode(out: &mut (impl Write + Seek), frame: &Frame) -> std::io::Result<()> {
+    let plane = |pixels: &[Rgb], channel: usize| {
+        FlatSamples::F32(pixels.iter().map(|pixel| pixel[channel]).collect())
+    };
+    let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = SmallVec::new();
+    for (index, name) in ["R", "G", "B"].into_iter().enumerate() {
+        channels.push(AnyChannel::new(name, plane(&frame.radiance, index)));
+        if !frame.standard_error.is_empty() {
+            let name = format!("error.{name}");
+            channels.push(AnyChannel::new(Text::from(name.as_str()), plane(&frame.standard_error, index)));
+        }
+    }
+    let mut attributes = LayerAttributes::default();
+    for (name, value) in &frame.facts {
+        attributes.other.insert(Text::from(name.as_str()), AttributeValue::Text(Text::from(value.as_str())));
+    }
+    let size = (frame.width as usize, frame.height as usize);
+    let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
+    Image::from_layer(layer).write().to_buffered(out).map_err(std::io::Error::other)
+}

@@ -1,0 +1,226 @@
+//! The effects that a scene calls for, each with the places that call for it.
+
+use crate::ir::light::{EnvironmentRadiance, LightKind};
+use crate::ir::material::{Input, MaterialKind, MetalColor, Projection, TextureKind};
+use crate::ir::{Camera, Handle, Lens, Material, Object, Scene, ShapeKind, Texture};
+use crate::load::Loaded;
+use crate::source::Span;
+use rustc_hash::FxHashSet;
+
+/// Something that a picture may need simulated.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Effect {
+    /// A lens opening: depth of field.
+    LensBlur,
+    /// Lights with a size.
+    SoftShadows,
+    /// Colours looked up at points.
+    Textures,
+    /// Perfect mirrors and glass.
+    Specular,
+    /// Light that goes through.
+    Dielectrics,
+    /// Highlights with a width.
+    Glossy,
+    /// Glass that colours light on its way.
+    Absorption,
+    /// Light that reaches a matt surface by way of a mirror or through glass.
+    Caustics,
+    /// Light that bounces between surfaces.
+    Indirect,
+    /// Light from everywhere.
+    Environment,
+    /// Emissive objects.
+    MeshLights,
+}
+
+impl Effect {
+    /// All of them, in the order in which they are listed.
+    pub const ALL: [Self; 11] = [
+        Self::LensBlur,
+        Self::SoftShadows,
+        Self::Textures,
+        Self::Specular,
+        Self::Dielectrics,
+        Self::Glossy,
+        Self::Absorption,
+        Self::Caustics,
+        Self::Indirect,
+        Self::Environment,
+        Self::MeshLights,
+    ];
+
+    /// The name by which people know it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::LensBlur => "lens_blur",
+            Self::SoftShadows => "soft_shadows",
+            Self::Textures => "textures",
+            Self::Specular => "specular",
+            Self::Dielectrics => "dielectrics",
+            Self::Glossy => "glossy",
+            Self::Absorption => "absorption",
+            Self::Caustics => "caustics",
+            Self::Indirect => "indirect",
+            Self::Environment => "environment",
+            Self::MeshLights => "mesh_lights",
+        }
+    }
+}
+
+/// An effect with its users.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct EffectUse {
+    /// Which.
+    pub effect: Effect,
+    /// The first place that calls for it.
+    pub span: Span,
+    /// How many places do.
+    pub count: usize,
+}
+
+/// The effects of a scene, in the order of [`Effect::ALL`].
+pub fn effects(loaded: &Loaded<'_>, camera: Option<&Camera>) -> Vec<EffectUse> {
+    let mut found = Found { scene: loaded.scene, uses: Vec::new(), seen: FxHashSet::default() };
+    if let Some(camera) = camera {
+        found.camera(camera);
+    }
+    for object in &loaded.scene.objects {
+        found.object(object);
+    }
+    found.lights();
+    found.caustics();
+    found.uses.sort_by_key(|used| used.effect);
+    found.uses
+}
+
+struct Found<'a> {
+    scene: &'a Scene,
+    uses: Vec<EffectUse>,
+    seen: FxHashSet<usize>,
+}
+
+impl Found<'_> {
+    fn add(&mut self, effect: Effect, span: Span) {
+        match self.uses.iter_mut().find(|used| used.effect == effect) {
+            Some(used) => used.count += 1,
+            None => self.uses.push(EffectUse { effect, span, count: 1 }),
+        }
+    }
+
+    fn of(&self, effect: Effect) -> Option<EffectUse> {
+        self.uses.iter().find(|used| used.effect == effect).copied()
+    }
+
+    fn camera(&mut self, camera: &Camera) {
+        if let Lens::Thin { radius, .. } = &camera.lens
+            && radius.value > 0.0
+        {
+            self.add(Effect::LensBlur, radius.span);
+        }
+    }
+
+    fn object(&mut self, object: &Object) {
+        let shape = &self.scene.shapes[object.shape];
+        match object.material.or(shape.material) {
+            Some(material) => self.material(material),
+            // A mesh brings its own materials; grey otherwise.
+            None if matches!(shape.kind, ShapeKind::Mesh { .. }) => self.add(Effect::Textures, shape.span),
+            None => self.add(Effect::Indirect, object.span),
+        }
+    }
+
+    fn material(&mut self, handle: Handle<Material>) {
+        if !self.seen.insert(handle.index()) {
+            return;
+        }
+        let material = &self.scene.materials[handle];
+        match &material.kind {
+            MaterialKind::Diffuse { color } => {
+                self.add(Effect::Indirect, material.span);
+                self.input(color);
+            }
+            MaterialKind::Phong { diffuse, specular, .. } => {
+                self.add(Effect::Indirect, material.span);
+                self.add(Effect::Glossy, material.span);
+                self.input(diffuse);
+                self.input(specular);
+            }
+            MaterialKind::Mirror { color } => {
+                self.add(Effect::Specular, material.span);
+                self.input(color);
+            }
+            MaterialKind::Metal { color, roughness } => {
+                self.add(Effect::Glossy, material.span);
+                if let MetalColor::Color(color) = color {
+                    self.input(color);
+                }
+                self.input(roughness);
+            }
+            MaterialKind::Glass { absorption, .. } => {
+                self.add(Effect::Specular, material.span);
+                self.add(Effect::Dielectrics, material.span);
+                if !absorption.is_black() {
+                    self.add(Effect::Absorption, material.span);
+                }
+            }
+            MaterialKind::Emissive { .. } => self.add(Effect::MeshLights, material.span),
+            MaterialKind::Mix { a, b, amount } => {
+                self.material(*a);
+                self.material(*b);
+                self.input(amount);
+            }
+        }
+    }
+
+    fn input(&mut self, input: &Input) {
+        if let Input::Texture(texture) = input {
+            self.texture(texture.value);
+        }
+    }
+
+    fn texture(&mut self, handle: Handle<Texture>) {
+        let texture = &self.scene.textures[handle];
+        let span = match &texture.kind {
+            TextureKind::Image(image) if image.projection == Projection::Uv => image.file.span,
+            _ => texture.span,
+        };
+        self.add(Effect::Textures, span);
+    }
+
+    fn lights(&mut self) {
+        let scene = self.scene;
+        for light in &scene.lights {
+            match light.kind {
+                LightKind::Sphere { .. } | LightKind::Rect { .. } => {
+                    self.add(Effect::SoftShadows, light.span)
+                }
+                LightKind::Point { .. } | LightKind::Directional { .. } => {}
+            }
+        }
+        if let Some(used) = self.of(Effect::MeshLights) {
+            self.add(Effect::SoftShadows, used.span);
+        }
+        if let Some(environment) = &scene.environment {
+            self.add(Effect::Environment, environment.span);
+            if let EnvironmentRadiance::Image(texture) = environment.radiance {
+                self.texture(texture);
+            }
+        }
+    }
+
+    /// Caustics need a light, something specular that it can reach, and a surface that is not specular to fall on.
+    /// Over-approximates: what the light can reach is not looked at.
+    fn caustics(&mut self) {
+        let scene = self.scene;
+        let lit =
+            !scene.lights.is_empty() || scene.environment.is_some() || self.of(Effect::MeshLights).is_some();
+        let receiver = self.of(Effect::Indirect).or(self.of(Effect::Glossy)).is_some();
+        if let Some(specular) = self.of(Effect::Specular)
+            && lit
+            && receiver
+        {
+            self.uses.push(EffectUse { effect: Effect::Caustics, ..specular });
+        }
+    }
+}

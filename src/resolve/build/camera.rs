@@ -1,0 +1,154 @@
+//! Cameras, lenses and film.
+
+use crate::ir::camera::Fov;
+use crate::ir::{Camera, Exposure, Film, Filter, Focus, Lens, Tone};
+use crate::math::DVec3;
+use crate::resolve::error::Error;
+use crate::resolve::fields::Fields;
+use crate::resolve::{Env, Resolver, Value};
+use crate::schema;
+use crate::source::Spanned;
+use crate::syntax::ast::Object;
+
+impl<'a> Resolver<'a> {
+    /// `camera { .. }`, `camera front { .. }`.
+    pub(in crate::resolve) fn camera(&mut self, object: &'a Object, env: &Env<'a>) {
+        let block = schema::block("camera").expect("declared in the registry");
+        let fields = self.read(block, object.kind.span, &object.body, env);
+        self.unique_camera(object);
+        if let Some(camera) = self.camera_of(&fields, object) {
+            self.scene.cameras.push(camera);
+        }
+    }
+
+    /// Two cameras need two names.
+    fn unique_camera(&mut self, object: &'a Object) {
+        let name = object.second.as_ref().map(|name| name.value.as_str());
+        let same = |camera: &&Camera| camera.name.as_ref().map(|name| name.value.as_str()) == name;
+        let Some(first) = self.scene.cameras.iter().find(same).map(|camera| camera.span) else { return };
+        self.report(Error::SecondBlock { kind: "camera", second: object.kind.span, first });
+    }
+
+    fn camera_of(&mut self, fields: &Fields<'a>, object: &'a Object) -> Option<Camera> {
+        let direction = match self.either(fields, &["look_at", "direction"]) {
+            Some("direction") => fields.triple("direction"),
+            Some(_) => {
+                let position = fields.triple("position")?.value;
+                fields.triple("look_at").map(|target| target.map(|target| target - position))
+            }
+            None => {
+                self.needs_one(fields, &["look_at", "direction"]);
+                None
+            }
+        };
+        let mut lens = match fields.value("lens").map(|slot| &slot.value) {
+            Some(Value::Lens(lens)) => (**lens).clone(),
+            _ => Lens::Pinhole { focal_length: None },
+        };
+        // A lens that is told nothing is sharp where the camera looks.
+        if let (Lens::Thin { focus: focus @ None, .. }, Some(target)) = (&mut lens, fields.triple("look_at"))
+        {
+            *focus = Some(target.map(Focus::Point));
+        }
+        Some(Camera {
+            name: object.second.clone(),
+            position: fields.triple("position")?,
+            // What could not be read is as good as straight ahead.
+            direction: direction.unwrap_or(Spanned::new(DVec3::NEG_Z, fields.head)),
+            up: fields.triple("up")?,
+            fov: self.fov(fields, &lens),
+            lens,
+            film: self.film(fields)?,
+            span: object.span,
+        })
+    }
+
+    fn fov(&mut self, fields: &Fields<'a>, lens: &Lens) -> Option<Spanned<Fov>> {
+        let (Lens::Pinhole { focal_length } | Lens::Thin { focal_length, .. }) = lens;
+        let name = self.either(fields, &["fov", "fov_x"]);
+        match (name, focal_length) {
+            (Some(name), Some(length)) => {
+                let (one, other) = (name.to_owned(), "focal_length".to_owned());
+                let first = fields.span(name)?;
+                self.report(Error::ConflictingFields { one, other, first, second: length.span });
+                None
+            }
+            (Some("fov_x"), None) => fields.number("fov_x").map(|angle| angle.map(Fov::Horizontal)),
+            (Some(_), None) if let Some(angle) = fields.number("fov") => Some(angle.map(Fov::Vertical)),
+            (_, Some(_)) => None,
+            (_, None) => Some(Spanned::new(Fov::Vertical(std::f64::consts::FRAC_PI_4), fields.head)),
+        }
+    }
+
+    /// A lens of a block.
+    pub(super) fn lens(&mut self, fields: &Fields<'a>) -> Option<Lens> {
+        let focal_length = fields.number("focal_length");
+        if fields.block.kind == "pinhole" {
+            return Some(Lens::Pinhole { focal_length });
+        }
+        Some(Lens::Thin {
+            focal_length,
+            radius: self.opening(fields, focal_length)?,
+            focus: match fields.value("focus") {
+                Some(Spanned { value: Value::Focus(focus), span }) => {
+                    Some(Spanned::new((**focus).clone(), *span))
+                }
+                _ => None,
+            },
+            blades: fields.count("blades")?,
+            rotation: fields.number("rotation")?,
+        })
+    }
+
+    /// The radius of the opening: said, or the focal length by twice the f-number.
+    fn opening(&mut self, fields: &Fields<'a>, focal_length: Option<Spanned<f64>>) -> Option<Spanned<f64>> {
+        match self.either(fields, &["radius", "aperture"]) {
+            Some("radius") => fields.number("radius"),
+            Some(_) => {
+                if !fields.has("focal_length") {
+                    self.needs_one(fields, &["focal_length"]);
+                }
+                let f_number = fields.number("aperture")?;
+                let length = focal_length?.value;
+                Some(f_number.map(|n| length / (2.0 * n)))
+            }
+            None => {
+                self.needs_one(fields, &["aperture", "radius"]);
+                None
+            }
+        }
+    }
+
+    fn film(&mut self, camera: &Fields<'a>) -> Option<Film> {
+        let block = schema::block("film").expect("declared in the registry");
+        let empty;
+        let fields = match camera.nested("film") {
+            Some(fields) => fields,
+            None => {
+                empty = Fields::empty(block, camera.head);
+                &empty
+            }
+        };
+        let size = match fields.value("size") {
+            Some(Spanned { value: Value::Size(width, height), span }) => {
+                Spanned::new((*width, *height), *span)
+            }
+            _ => fields.pair("size")?,
+        };
+        let filter = match fields.value("filter") {
+            Some(Spanned { value: Value::Filter(filter), span }) => Spanned::new(*filter, *span),
+            _ => Spanned::new(Filter::Tent(1.0), fields.head),
+        };
+        let exposure = match fields.value("exposure") {
+            Some(Spanned { value: Value::Word(_), span }) => Spanned::new(Exposure::Auto, *span),
+            _ => fields.number("exposure")?.map(Exposure::Ev),
+        };
+        let tone = fields.word("tone")?.map(|tone| match tone {
+            "linear" => Tone::Linear,
+            "reinhard" => Tone::Reinhard,
+            "agx" => Tone::Agx,
+            _ => Tone::Srgb,
+        });
+        Some(Film { size, filter, sensor: fields.number("sensor")?, exposure, tone })
+    }
+}

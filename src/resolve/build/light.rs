@@ -1,0 +1,84 @@
+//! Lights, and the environment.
+
+use crate::ir::light::EnvironmentRadiance;
+use crate::ir::{Brightness, Environment, Light, LightKind, TextureKind};
+use crate::math::Rgb;
+use crate::resolve::error::Error;
+use crate::resolve::fields::Fields;
+use crate::resolve::node::{Node, NodeKind};
+use crate::resolve::{Env, Resolver, Value};
+use crate::schema;
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::Object;
+use std::rc::Rc;
+
+impl<'a> Resolver<'a> {
+    /// The light of a block; it may stand in a group and is moved with it.
+    pub(super) fn light(&mut self, fields: &Fields<'a>, span: Span) -> Option<Rc<Node>> {
+        let kind = light_kind(fields)?;
+        let brightness = self.brightness(fields)?;
+        let color = fields.color("color")?.value;
+        let light = Light { kind, brightness, color, span, trail: Vec::new() };
+        self.node(NodeKind::Light(Box::new(light)), Rc::new([]), None, span)
+    }
+
+    fn brightness(&mut self, fields: &Fields<'a>) -> Option<Spanned<Brightness>> {
+        let names: &[&str] = match fields.block.kind {
+            "light directional" => return Some(fields.number("irradiance")?.map(Brightness::Irradiance)),
+            "light point" => &["power", "intensity"],
+            _ => &["power", "radiance"],
+        };
+        match self.either(fields, names) {
+            Some("power") => Some(fields.number("power")?.map(Brightness::Power)),
+            Some("intensity") => Some(fields.color("intensity")?.map(Brightness::Intensity)),
+            Some(_) => Some(fields.color("radiance")?.map(Brightness::Radiance)),
+            None => {
+                self.needs_one(fields, names);
+                None
+            }
+        }
+    }
+
+    /// `environment { .. }`: one in a scene.
+    pub(in crate::resolve) fn environment(&mut self, object: &'a Object, env: &Env<'a>) {
+        let block = schema::block("environment").expect("declared in the registry");
+        let fields = self.read(block, object.kind.span, &object.body, env);
+        if let Some(first) = self.environment {
+            let second = object.kind.span;
+            return self.report(Error::SecondBlock { kind: "environment", second, first });
+        }
+        self.environment = Some(object.kind.span);
+        let (Some(scale), Some(rotation)) = (fields.number("scale"), fields.number("rotation")) else {
+            return;
+        };
+        let radiance = match fields.value("radiance") {
+            Some(Spanned { value: Value::Texture(handle), span }) => {
+                if !matches!(self.scene.textures[*handle].kind, TextureKind::Image(_)) {
+                    self.wrong_type("a colour or an image", "a checker", *span, "write `image(\"sky.hdr\")`");
+                    return;
+                }
+                EnvironmentRadiance::Image(*handle)
+            }
+            _ => EnvironmentRadiance::Constant(
+                fields.color("radiance").map_or(Rgb::WHITE, |color| color.value),
+            ),
+        };
+        let span = object.span;
+        self.scene.environment = Some(Environment { radiance, scale, rotation: rotation.value, span });
+    }
+}
+
+fn light_kind(fields: &Fields) -> Option<LightKind> {
+    let point = |name| fields.triple(name).map(|point| point.value);
+    Some(match fields.block.kind {
+        "light point" => LightKind::Point { position: point("position")? },
+        "light sphere" => LightKind::Sphere { center: point("center")?, radius: fields.number("radius")? },
+        "light rect" => LightKind::Rect {
+            origin: point("origin")?,
+            edge_u: point("edge_u")?,
+            edge_v: point("edge_v")?,
+            two_sided: fields.flag("two_sided")?,
+        },
+        _ => LightKind::Directional { direction: fields.triple("direction")? },
+    })
+}

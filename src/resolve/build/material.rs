@@ -1,0 +1,110 @@
+//! Materials.
+
+use crate::ir::{Brightness, Handle, Input, Material, MaterialKind, MetalColor};
+use crate::math::Rgb;
+use crate::resolve::error::Error;
+use crate::resolve::fields::Fields;
+use crate::resolve::{Resolver, Value};
+use crate::source::{Span, Spanned};
+
+/// Reflectance at normal incidence in linear Rec. 709 of the metals known by name.
+///
+/// From measured optical constants (Johnson & Christy 1972; Palik 1985), integrated with the CIE 1931 observer, as
+/// tabulated for real-time rendering by Lagarde 2014.
+const METALS: &[(&str, Rgb)] = &[
+    ("silver", Rgb::new(0.972, 0.960, 0.915)),
+    ("gold", Rgb::new(1.0, 0.766, 0.336)),
+    ("copper", Rgb::new(0.955, 0.637, 0.538)),
+    ("aluminium", Rgb::new(0.913, 0.922, 0.924)),
+    ("iron", Rgb::new(0.562, 0.565, 0.578)),
+    ("chromium", Rgb::new(0.549, 0.556, 0.554)),
+];
+
+impl<'a> Resolver<'a> {
+    /// The material of a block.
+    pub(super) fn material(&mut self, fields: &Fields<'a>, span: Span) -> Option<Handle<Material>> {
+        let kind = self.material_kind(fields)?;
+        Some(self.scene.materials.push(Material { kind, span, name: None }))
+    }
+
+    fn material_kind(&mut self, fields: &Fields<'a>) -> Option<MaterialKind> {
+        Some(match fields.block.kind {
+            "diffuse" => MaterialKind::Diffuse { color: fields.input("color")? },
+            "phong" => MaterialKind::Phong {
+                diffuse: fields.input("diffuse")?,
+                specular: fields.input("specular")?,
+                shininess: fields.number("shininess")?,
+            },
+            "mirror" => MaterialKind::Mirror { color: fields.input("color")? },
+            "metal" => MaterialKind::Metal {
+                color: self.metal_color(fields)?,
+                roughness: fields.input("roughness")?,
+            },
+            "glass" => MaterialKind::Glass {
+                ior: fields.number("ior")?,
+                tint: fields.color("tint")?,
+                absorption: self.absorption(fields),
+            },
+            "emissive" => {
+                let brightness = self.glow_of(fields);
+                MaterialKind::Emissive { brightness, color: fields.color("color")?.value }
+            }
+            _ => MaterialKind::Mix {
+                a: material_of(fields, "a")?,
+                b: material_of(fields, "b")?,
+                amount: fields.input("amount")?,
+            },
+        })
+    }
+
+    fn metal_color(&mut self, fields: &Fields<'a>) -> Option<MetalColor> {
+        let Some(name) = self.either(fields, &["kind", "color"]) else {
+            self.needs_one(fields, &["kind", "color"]);
+            return None;
+        };
+        if name == "color" {
+            return Some(MetalColor::Color(
+                fields.input("color").unwrap_or(Input::Constant(grey(fields.head))),
+            ));
+        }
+        let word = fields.word("kind")?;
+        let (name, color) = METALS.iter().find(|(name, _)| *name == word.value)?;
+        Some(MetalColor::Named(Spanned::new((*name).to_owned(), word.span), *color))
+    }
+
+    /// The coefficient with which `exp(−a·x)` is what is left after x metres (Beer–Lambert).
+    fn absorption(&mut self, fields: &Fields<'a>) -> Rgb {
+        /// What counts as nothing left: a coefficient has to be finite.
+        const BLACK: f32 = 1e-6;
+        let Some(Spanned { value: Value::Absorption(left, metres), span }) = fields.value("absorption")
+        else {
+            return Rgb::BLACK;
+        };
+        if *metres > 0.0 {
+            return left.map(|share| (-libm::log(f64::from(share.clamp(BLACK, 1.0))) / metres) as f32);
+        }
+        let (field, range) = ("absorption".to_owned(), "per a length greater than 0m".to_owned());
+        let found = format!("per `{metres}m`");
+        self.report(Error::OutOfRange { field, range, found, used: *span, said: None });
+        Rgb::BLACK
+    }
+
+    fn glow_of(&mut self, fields: &Fields<'a>) -> Spanned<Brightness> {
+        let brightness = match self.either(fields, &["radiance", "power"]) {
+            Some("power") => fields.number("power").map(|power| power.map(Brightness::Power)),
+            _ => fields.color("radiance").map(|radiance| radiance.map(Brightness::Radiance)),
+        };
+        brightness.unwrap_or(Spanned::new(Brightness::Radiance(Rgb::WHITE), fields.head))
+    }
+}
+
+fn material_of(fields: &Fields, name: &str) -> Option<Handle<Material>> {
+    match fields.value(name)?.value {
+        Value::Material(handle) => Some(handle),
+        _ => None,
+    }
+}
+
+fn grey(span: Span) -> Spanned<Rgb> {
+    Spanned::new(Rgb::gray(0.5), span)
+}

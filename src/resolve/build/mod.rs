@@ -1,0 +1,128 @@
+//! From blocks whose fields were read to what they mean: a file per area of the language.
+
+mod camera;
+mod light;
+mod material;
+mod render;
+mod shape;
+mod texture;
+
+use super::error::Error;
+use super::fields::Fields;
+use super::{Env, Resolver, Value};
+use crate::diag::did_you_mean;
+use crate::schema::{self, Area};
+use crate::source::Span;
+use crate::syntax::ast::{Block, Object};
+
+/// Words of other systems for joining solids.
+const CSG: &[&str] = &["difference", "union", "intersection", "merge", "subtract", "csg"];
+
+/// What the language will have later, and what does instead.
+const LATER: &[(&str, &str)] = &[
+    ("cylinder", "turn a line: `revolve { profile: polyline [(1m, 0m), (1m, 2m)] }`"),
+    ("cone", "turn a line: `revolve { profile: polyline [(1m, 0m), (0m, 2m)] }`"),
+    ("torus", "turn a circle: `revolve` with a `bezier` profile"),
+    ("sweep", "model it as a `mesh`"),
+    ("heightfield", "model it as a `mesh`"),
+    ("plastic", "use `phong`"),
+    ("principled", "use `phong`, `metal` or `glass`, or a `mix` of them"),
+    ("layer", "use `phong`, or a `mix`"),
+    ("mask", "cut the shape itself"),
+    ("two_sided", "materials show on both sides already"),
+    ("normal_map", "use a finer mesh"),
+    ("bump", "use a finer mesh"),
+    ("gradient", "use `image` or `checker`"),
+    ("noise", "use `image` or `checker`"),
+    ("marble", "use `image`"),
+    ("wood", "use `image`"),
+    ("brick", "use `image` or `checker`"),
+    ("orthographic", "use a long way off and a small `fov`"),
+    ("panorama", "use `pinhole`"),
+    ("fisheye", "use `pinhole`"),
+    ("light spot", "use `light rect` or `light sphere`"),
+    ("light disk", "use `light rect`, or a `disk` of `emissive`"),
+    ("light mesh", "give a `mesh` the material `emissive`"),
+    ("light sun_sky", "use `light directional` and `environment`"),
+];
+
+impl<'a> Resolver<'a> {
+    /// A block with its head, as a value.
+    pub(super) fn object(&mut self, object: &'a Object, env: &Env<'a>) -> Value<'a> {
+        let head = object.second.as_ref().map_or(object.kind.span, |second| object.kind.span.to(second.span));
+        let kind = match &object.second {
+            Some(second) => format!("{} {}", object.kind.value, second.value),
+            None => object.kind.value.clone(),
+        };
+        match schema::block(&kind).filter(|block| block.area != Area::Item && block.area != Area::Render) {
+            Some(block) if kind == "environment" => self.misplaced_block(block, head),
+            Some(block) => self.block(block, head, &object.body, env),
+            None => self.no_such_block(object, &kind, head, env),
+        }
+    }
+
+    /// The value of a block of a known kind.
+    pub(super) fn block(
+        &mut self,
+        block: &'static schema::Block,
+        head: Span,
+        body: &'a Block,
+        env: &Env<'a>,
+    ) -> Value<'a> {
+        let fields = self.read(block, head, body, env);
+        let span = head.to(if body.span.is_empty() { head } else { body.span });
+        let value = match block.area {
+            Area::Shape => self.shape(&fields, body, span, env).map(Value::Object),
+            Area::Light => self.light(&fields, span).map(Value::Object),
+            Area::Material => self.material(&fields, span).map(Value::Material),
+            Area::Texture => self.texture(&fields, span),
+            Area::Camera => self.lens(&fields).map(|lens| Value::Lens(lens.into())),
+            Area::Item | Area::Render => None,
+        };
+        value.unwrap_or(Value::Poison)
+    }
+
+    fn misplaced_block(&mut self, block: &schema::Block, used: Span) -> Value<'a> {
+        let what = format!("`{}`", block.kind);
+        let help = "it is an item: write it at the top level".to_owned();
+        self.poison(Error::Misplaced { what, place: "where a value is wanted", used, help })
+    }
+
+    /// A block of no known kind. What its fields hold is looked at all the same.
+    fn no_such_block(&mut self, object: &'a Object, kind: &str, used: Span, env: &Env<'a>) -> Value<'a> {
+        let error = if let Some(block) = schema::block(kind) {
+            return self.misplaced_block(block, used);
+        } else if CSG.contains(&kind) {
+            Error::NoCsg { word: kind.to_owned(), used }
+        } else if let Some((_, instead)) = LATER.iter().find(|(later, _)| *later == kind) {
+            Error::NotYet { word: kind.to_owned(), used, help: (*instead).to_owned() }
+        } else if env.find(&object.kind.value).is_some() {
+            let help = format!("to put it into the picture, write `place {} {{ .. }}`", object.kind.value);
+            Error::UnknownBlock { kind: kind.to_owned(), used, help: Some(help) }
+        } else {
+            Error::UnknownBlock { kind: kind.to_owned(), used, help: unknown_block_help(kind) }
+        };
+        self.poison(error)
+    }
+
+    /// The first of two fields that excludes the other; both is a mistake, reported here.
+    fn either(&mut self, fields: &Fields<'a>, names: &[&'static str]) -> Option<&'static str> {
+        let mut given = names.iter().copied().filter(|name| fields.has(name));
+        let first = given.next()?;
+        if let Some(second) = given.next() {
+            self.conflict(fields, first, second);
+        }
+        Some(first)
+    }
+}
+
+fn unknown_block_help(kind: &str) -> Option<String> {
+    let kinds = || schema::blocks().map(|block| block.kind);
+    let lights = || kinds().filter(|known| known.starts_with("light "));
+    if kind.starts_with("light") {
+        let all: Vec<&str> = lights().collect();
+        return did_you_mean(kind, lights())
+            .or_else(|| Some(format!("the lights are {}", schema::quoted(&all))));
+    }
+    did_you_mean(kind, kinds())
+}

@@ -1,0 +1,277 @@
+//! From a value to the type that is wanted, or a report that says what was written and what to write.
+
+use super::dimension::{Dimension, Quantity};
+use super::error::Error;
+use super::expr::unknown_name_help;
+use super::fields::EMPTY;
+use super::{Env, Resolver, Value, color};
+use crate::diag::did_you_mean;
+use crate::ir;
+use crate::math::Rgb;
+use crate::schema::{self, Type};
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind};
+
+/// Below this a black body does not glow; above the upper end its colour stays the same.
+const GLOWING: std::ops::RangeInclusive<f64> = 100.0..=1e9;
+
+impl<'a> Resolver<'a> {
+    /// The value of an expression of which a type is expected: poisoned, or of that type.
+    pub(super) fn eval_as(&mut self, expr: &'a Expr, ty: Type, env: &Env<'a>) -> Value<'a> {
+        match (ty, &expr.kind) {
+            (_, ExprKind::Name(name)) if env.find(name).is_none() => self.word_as(name, expr.span, ty, env),
+            (Type::Choice(words), ExprKind::Name(name)) if let Some(word) = find_word(words, name) => {
+                Value::Word(word)
+            }
+            (Type::Block(kind), ExprKind::Block(body)) => {
+                let block = schema::block(kind).expect("types name declared blocks");
+                Value::Block(std::rc::Rc::new(self.read(block, body.span, body, env)))
+            }
+            (Type::Point | Type::Offset, ExprKind::Tuple(parts)) if parts.len() == 3 => {
+                self.tuple_as(parts, Type::Length, env)
+            }
+            _ => {
+                let value = self.eval(expr, env);
+                self.coerce(value, ty, expr.span)
+            }
+        }
+    }
+
+    /// Each part as `ty`, so that a report points at the part.
+    pub(super) fn tuple_as(&mut self, parts: &'a [Expr], ty: Type, env: &Env<'a>) -> Value<'a> {
+        let values: Vec<Value> = parts.iter().map(|part| self.eval_as(part, ty, env)).collect();
+        if values.iter().any(Value::is_poison) { Value::Poison } else { Value::Tuple(values.into()) }
+    }
+
+    /// A word that the scene does not define: what it means depends on the type.
+    fn word_as(&mut self, name: &str, used: Span, ty: Type, env: &Env<'a>) -> Value<'a> {
+        let lens = |this: &mut Self, kind| {
+            let block = schema::block(kind).expect("declared in the registry");
+            this.block(block, used, &EMPTY, env)
+        };
+        match (ty, name) {
+            (Type::Choice(words), _) => match find_word(words, name) {
+                Some(word) => Value::Word(word),
+                None => self.unknown_word(name, words, used),
+            },
+            (Type::Exposure, "auto") => Value::Word("auto"),
+            (Type::Projection, "uv") => Value::Projection(ir::Projection::Uv),
+            (Type::Lens, "pinhole") => lens(self, "pinhole"),
+            (Type::Lens, "thin") => lens(self, "thin"),
+            (Type::Material, _) => self.unknown_material(name, used, env),
+            _ => {
+                let value = self.name(name, used, env);
+                self.coerce(value, ty, used)
+            }
+        }
+    }
+
+    fn unknown_word(&mut self, word: &str, words: &'static [&'static str], used: Span) -> Value<'a> {
+        if words.contains(&"ppm") && ["hybrid", "classic"].contains(&word) {
+            let help = "write `method: auto`, or choose `pt` or `ppm`".to_owned();
+            return self.poison(Error::NotYet { word: word.to_owned(), used, help });
+        }
+        let wanted = Type::Choice(words).noun();
+        let help = did_you_mean(word, words.iter().copied()).unwrap_or_else(|| format!("write {wanted}"));
+        self.poison(Error::UnknownWord { word: word.to_owned(), wanted, used, help })
+    }
+
+    fn unknown_material(&mut self, name: &str, used: Span, env: &Env<'a>) -> Value<'a> {
+        if let Some(color) = color::named(name) {
+            return self.coerce(Value::Color(color), Type::Material, used);
+        }
+        let kinds =
+            schema::blocks().filter(|block| block.area == schema::Area::Material).map(|block| block.kind);
+        let visible = env.visible();
+        let names = visible.iter().map(|definition| definition.name);
+        let help = match schema::block(name) {
+            Some(_) => unknown_name_help(name, env),
+            None => did_you_mean(name, names.chain(kinds))
+                .or_else(|| Some(format!("define it: `let {name} = diffuse {{ color: #ff8800 }}`"))),
+        };
+        self.poison(Error::UnknownMaterial { name: name.to_owned(), used, help })
+    }
+
+    /// `value` as `ty`: poisoned, or of that type. Bare numbers become lengths in the units of the file.
+    pub(super) fn coerce(&mut self, value: Value<'a>, ty: Type, span: Span) -> Value<'a> {
+        if value.is_poison() {
+            return value;
+        }
+        if let Some(dimension) = Dimension::of(ty) {
+            return self.quantity_as(value, ty, dimension, span);
+        }
+        match (ty, value) {
+            (Type::Bool, value @ Value::Bool(_))
+            | (Type::Text, value @ Value::Text(_))
+            | (Type::Material, value @ Value::Material(_))
+            | (Type::Texture, value @ Value::Texture(_))
+            | (Type::Object, value @ Value::Object(_))
+            | (Type::Transform, value @ Value::Transform(_))
+            | (Type::Lens, value @ Value::Lens(_))
+            | (Type::Focus, value @ Value::Focus(_))
+            | (Type::Size, value @ Value::Size(..))
+            | (Type::Filter, value @ Value::Filter(_))
+            | (Type::Stop, value @ Value::Stop(_))
+            | (Type::Projection, value @ Value::Projection(_))
+            | (Type::Curve | Type::Outline, value @ Value::Curve(_))
+            | (Type::Absorption, value @ Value::Absorption(..))
+            | (Type::List | Type::Outlines, value @ Value::List(_))
+            | (Type::Block(_), value @ Value::Block(_))
+            | (Type::ColorInput | Type::NumberInput | Type::SkyInput, value @ Value::Texture(_)) => value,
+            (Type::Choice(words), Value::Word(word)) if words.contains(&word) => Value::Word(word),
+            (Type::Outlines, value @ Value::Curve(_)) => Value::List([value].into()),
+            (Type::Point | Type::Offset, value @ Value::Tuple(_)) => {
+                self.triple_as(value, Type::Length, ty, span)
+            }
+            (Type::Vector, value @ Value::Tuple(_)) => self.direction(value, span),
+            (Type::Pair | Type::Cells, value @ Value::Tuple(_)) => self.pair(value, ty, span),
+            (Type::Cells, value @ Value::Number(Quantity { dimension: Dimension::NONE, .. })) => {
+                Value::Tuple([value.clone(), value].into())
+            }
+            (Type::Focus, value @ Value::Number(_)) => {
+                match self.quantity_as(value, Type::Length, Dimension::LENGTH, span) {
+                    Value::Number(distance) => Value::Focus(ir::Focus::Distance(distance.value).into()),
+                    _ => Value::Poison,
+                }
+            }
+            (Type::Focus, value @ Value::Tuple(_)) => {
+                let point = self.triple_as(value, Type::Length, Type::Point, span);
+                point.triple().map_or(Value::Poison, |p| Value::Focus(ir::Focus::Point(p).into()))
+            }
+            (ty, value) if let Some(color) = as_color(&value, ty) => Value::Color(color),
+            (Type::LightColor | Type::SkyInput, Value::Number(q))
+                if q.dimension == Dimension::TEMPERATURE =>
+            {
+                self.glow(q, span)
+            }
+            (ty, value) => self.refuse(&value, ty, span),
+        }
+    }
+
+    fn quantity_as(&mut self, value: Value<'a>, ty: Type, dimension: Dimension, span: Span) -> Value<'a> {
+        let Value::Number(quantity) = value else {
+            let is_auto = ty == Type::Exposure && matches!(value, Value::Word(_));
+            return if is_auto { value } else { self.refuse(&value, ty, span) };
+        };
+        let bare = quantity.dimension == Dimension::NONE;
+        match ty {
+            Type::Int if bare && quantity.value.fract() != 0.0 => {
+                self.wrong_type("a whole number", "a broken number", span, "round it: `round(x)`")
+            }
+            Type::Length if bare => Value::Number(Quantity::new(quantity.value * self.unit, dimension)),
+            Type::FNumber | Type::Pixels if bare => Value::Number(Quantity::new(quantity.value, dimension)),
+            _ if quantity.dimension == dimension => Value::Number(quantity),
+            _ if bare => {
+                let (wanted, text) = (ty.noun(), self.text(span));
+                let help = unit_help(&text, quantity.value, ty);
+                self.poison(Error::MissingUnit { wanted, text, used: span, help })
+            }
+            _ => self.refuse(&Value::Number(quantity), ty, span),
+        }
+    }
+
+    fn triple_as(&mut self, value: Value<'a>, part: Type, whole: Type, span: Span) -> Value<'a> {
+        let Value::Tuple(parts) = value else { return Value::Poison };
+        if parts.len() != 3 {
+            return self.refuse(&Value::Tuple(parts), whole, span);
+        }
+        let values: Vec<Value> = parts.iter().map(|value| self.coerce(value.clone(), part, span)).collect();
+        if values.iter().any(Value::is_poison) { Value::Poison } else { Value::Tuple(values.into()) }
+    }
+
+    /// Three plain numbers, or three lengths: the difference of two points is a direction too.
+    fn direction(&mut self, value: Value<'a>, span: Span) -> Value<'a> {
+        let is = |value: &Value, dimension| matches!(value, Value::Number(q) if q.dimension == dimension);
+        let Value::Tuple(parts) = &value else { return Value::Poison };
+        let plain = parts.iter().all(|part| is(part, Dimension::NONE));
+        let lengths = parts.iter().all(|part| is(part, Dimension::LENGTH));
+        if parts.len() == 3 && (plain || lengths) { value } else { self.refuse(&value, Type::Vector, span) }
+    }
+
+    fn pair(&mut self, value: Value<'a>, ty: Type, span: Span) -> Value<'a> {
+        let Value::Tuple(parts) = &value else { return Value::Poison };
+        let plain = |part: &Value| matches!(part, Value::Number(q) if q.dimension == Dimension::NONE);
+        if parts.len() == 2 && parts.iter().all(plain) { value } else { self.refuse(&value, ty, span) }
+    }
+
+    /// The colour of a black body.
+    fn glow(&mut self, temperature: Quantity, used: Span) -> Value<'a> {
+        if GLOWING.contains(&temperature.value) {
+            return Value::Color(color::black_body(temperature.value));
+        }
+        let range = "from 100K to 1000000000K".to_owned();
+        let (field, found) = ("color".to_owned(), format!("`{}`", self.text(used)));
+        self.poison(Error::OutOfRange { field, range, found, used, said: None })
+    }
+
+    /// A report that a value is not of the type wanted.
+    pub(super) fn refuse(&mut self, value: &Value<'a>, ty: Type, used: Span) -> Value<'a> {
+        let (wanted, text, found) = (ty.noun(), self.text(used), value.noun());
+        let help = match (ty, value) {
+            (Type::Material, Value::Color(_)) => format!("make it a material: `diffuse {{ color: {text} }}`"),
+            (Type::Material, Value::Texture(_)) => {
+                "put it into a material: `diffuse { color: .. }`".to_owned()
+            }
+            (Type::Color | Type::ColorInput | Type::LightColor, Value::Tuple(_)) => {
+                format!("write `rgb{text}`")
+            }
+            (Type::Object, Value::Function(_)) => format!("call it: `{text}(..)`"),
+            (Type::Curve, Value::List(_)) => format!("say how to join the points: `polyline {text}`"),
+            (Type::Outline, Value::List(_)) => format!("say how to join the points: `polygon {text}`"),
+            _ => format!("write {}, such as `{}`", ty.noun(), ty.example()),
+        };
+        match value {
+            Value::Number(_) if Dimension::of(ty).is_some() => {
+                self.poison(Error::WrongDimension { wanted, text, found, used, help })
+            }
+            _ => self.poison(Error::WrongType { wanted, text, found, used, help }),
+        }
+    }
+
+    /// A report that something else is wanted, in words of its own.
+    pub(super) fn wrong_type(&mut self, wanted: &str, found: &str, used: Span, help: &str) -> Value<'a> {
+        let (wanted, found, help) = (wanted.to_owned(), found.to_owned(), help.to_owned());
+        let text = self.text(used);
+        self.poison(Error::WrongType { wanted, text, found, used, help })
+    }
+}
+
+fn find_word(words: &'static [&'static str], name: &str) -> Option<&'static str> {
+    words.iter().copied().find(|word| *word == name)
+}
+
+/// A colour, or a plain number as grey, where the type takes them.
+fn as_color(value: &Value, ty: Type) -> Option<Rgb> {
+    let grey_only = ty == Type::NumberInput;
+    let takes_color = matches!(
+        ty,
+        Type::Color
+            | Type::LightColor
+            | Type::Radiance
+            | Type::ColorInput
+            | Type::NumberInput
+            | Type::SkyInput
+    );
+    match value {
+        Value::Color(color) if takes_color && !grey_only => Some(*color),
+        Value::Number(q) if takes_color && q.dimension == Dimension::NONE => Some(Rgb::gray(q.value as f32)),
+        _ => None,
+    }
+}
+
+/// What to write instead of a bare number: `30deg`.
+fn unit_help(text: &str, value: f64, ty: Type) -> String {
+    let unit = match ty {
+        Type::Angle => "deg",
+        Type::Time => "s",
+        Type::Power => "W",
+        Type::Temperature => "K",
+        _ => "EV",
+    };
+    let is_numeral = text.parse::<f64>().is_ok_and(|written| written == value);
+    if is_numeral {
+        format!("write `{text}{unit}`")
+    } else {
+        format!("give it a unit: multiply it by `1{unit}`")
+    }
+}

@@ -1,0 +1,275 @@
+//! Functions that make transforms, curves, filters and rules to stop by.
+
+use super::builtin::Builtin;
+use super::error::Error;
+use super::{Env, Resolver, Value};
+use crate::diag::did_you_mean;
+use crate::ir::{self, CurveKind, Filter, Stop, TransformStep};
+use crate::math::float::sin_cos64;
+use crate::math::{DAffine3, DMat3, DVec2, DVec3};
+use crate::schema::{self, Type};
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::{Arg, Expr, ExprKind, Name};
+
+/// The words before a list of points.
+const CURVES: [&str; 4] = ["bezier", "bspline", "polyline", "polygon"];
+
+impl<'a> Resolver<'a> {
+    /// The result of a constructor whose arguments have the right types already.
+    pub(super) fn construct(
+        &mut self,
+        builtin: &Builtin,
+        args: &[Spanned<Value<'a>>],
+        used: Span,
+    ) -> Value<'a> {
+        let first = &args[0];
+        let x = match first.value {
+            Value::Number(quantity) => quantity.value,
+            _ => 0.0,
+        };
+        let said = Spanned::new(x, used);
+        let count = said.map(|x| x as u32);
+        match builtin.name {
+            "samples" | "passes" => Value::Stop(Stop { passes: Some(count), ..Stop::default() }),
+            "time" => Value::Stop(Stop { seconds: Some(said), ..Stop::default() }),
+            "error" => Value::Stop(Stop { error: Some(said), ..Stop::default() }),
+            "box" => Value::Filter(Filter::Box(x)),
+            "tent" => Value::Filter(Filter::Tent(x)),
+            "gaussian" => Value::Filter(Filter::Gaussian(x)),
+            "image" => self.image_file(&first.value, used),
+            _ => match self.matrix_of(builtin, args, x) {
+                Some(matrix) => Value::Transform([TransformStep { matrix, span: used }].into()),
+                None => Value::Poison,
+            },
+        }
+    }
+
+    fn matrix_of(&mut self, builtin: &Builtin, args: &[Spanned<Value<'a>>], x: f64) -> Option<DAffine3> {
+        let linear = |matrix| Some(DAffine3::from_mat3(matrix));
+        match builtin.name {
+            "translate" => Some(DAffine3::from_translation(self.three(args, Type::Length, Type::Point)?)),
+            "scale" => {
+                let factors = if args.len() == 1 && matches!(args[0].value, Value::Number(_)) {
+                    let all = self.coerce(args[0].value.clone(), Type::Number, args[0].span);
+                    (!all.is_poison()).then_some(DVec3::splat(x))?
+                } else {
+                    self.three(args, Type::Number, Type::Vector)?
+                };
+                Some(DAffine3::from_scale(factors))
+            }
+            "rotate_x" => linear(rotation(DVec3::X, x)),
+            "rotate_y" => linear(rotation(DVec3::Y, x)),
+            "rotate_z" => linear(rotation(DVec3::Z, x)),
+            "rotate" => {
+                let axis = self.unit(&args[0])?;
+                let Value::Number(angle) = args[1].value else { return None };
+                linear(rotation(axis, angle.value))
+            }
+            "look_at" => self.looking(args),
+            _ => self.sixteen(&args[0]),
+        }
+    }
+
+    /// Three arguments, or one tuple of three.
+    fn three(&mut self, args: &[Spanned<Value<'a>>], part: Type, whole: Type) -> Option<DVec3> {
+        match args {
+            [tuple] => self.coerce(tuple.value.clone(), whole, tuple.span).triple(),
+            [_, _, _] => {
+                let parts: Vec<Value> =
+                    args.iter().map(|arg| self.coerce(arg.value.clone(), part, arg.span)).collect();
+                Value::Tuple(parts.into()).triple()
+            }
+            _ => {
+                let (first, second) = (args[0].span, args[args.len() - 1].span);
+                let (wanted, help) = (whole.noun(), format!("write three, such as `{}`", whole.example()));
+                self.wrong_type(&wanted, "two numbers", first.to(second), &help);
+                None
+            }
+        }
+    }
+
+    fn unit(&mut self, vector: &Spanned<Value<'a>>) -> Option<DVec3> {
+        let unit = vector.triple()?.try_normalize();
+        if unit.is_none() {
+            let why = "a vector of length 0 has no direction";
+            self.report(Error::NotFinite {
+                why,
+                used: vector.span,
+                help: "write an axis such as `(0, 1, 0)`",
+            });
+        }
+        unit
+    }
+
+    /// Puts the object's origin at `from`, with its −z axis towards `to`.
+    fn looking(&mut self, args: &[Spanned<Value<'a>>]) -> Option<DAffine3> {
+        let (from, to) = (args[0].triple()?, args[1].triple()?);
+        let up = args.get(2).map_or(Some(DVec3::Y), |up| up.triple())?;
+        let z = (from - to).try_normalize();
+        let x = z.and_then(|z| up.cross(z).try_normalize());
+        let (Some(z), Some(x)) = (z, x) else {
+            let why = "the two points coincide, or `up` points along them";
+            let help = "move them apart, or choose another `up`";
+            self.report(Error::NotFinite { why, used: args[0].span.to(args[args.len() - 1].span), help });
+            return None;
+        };
+        Some(DAffine3 { matrix3: DMat3::from_cols(x, z.cross(x), z), translation: from })
+    }
+
+    /// Sixteen numbers, row by row; the last row is 0 0 0 1. Translations may be lengths.
+    fn sixteen(&mut self, list: &Spanned<Value<'a>>) -> Option<DAffine3> {
+        let Value::List(parts) = &list.value else { return None };
+        let number = |value: &Value| match value {
+            Value::Number(quantity) => Some(quantity.value),
+            _ => None,
+        };
+        let numbers: Vec<f64> = parts.iter().filter_map(number).collect();
+        let affine = numbers.len() == 16 && numbers[12..] == [0.0, 0.0, 0.0, 1.0];
+        if !affine || parts.len() != 16 {
+            let help = "write the rows one after the other; the last is `0, 0, 0, 1`";
+            self.wrong_type("a list of 16 numbers that end in 0, 0, 0, 1", "another list", list.span, help);
+            return None;
+        }
+        let column = |c: usize| DVec3::new(numbers[c], numbers[4 + c], numbers[8 + c]);
+        Some(DAffine3 { matrix3: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) })
+    }
+
+    /// `bezier [..]`, `polygon [..]`: a word that says how points are joined.
+    pub(super) fn tagged(&mut self, tag: &'a Name, value: &'a Expr, env: &Env<'a>) -> Value<'a> {
+        let Some(kind) = curve_kind(tag) else {
+            let help = did_you_mean(tag, CURVES)
+                .unwrap_or_else(|| format!("the words before a list are {}", schema::quoted(&CURVES)));
+            let wanted = "a way to join points".to_owned();
+            return self.poison(Error::UnknownWord { word: tag.value.clone(), wanted, used: tag.span, help });
+        };
+        self.curve(kind, value, tag.span.to(value.span), env)
+    }
+
+    /// `bezier(degree: all, [..])` and the other words as calls; `None`: it is no such call.
+    pub(super) fn curve_call(
+        &mut self,
+        name: &str,
+        args: &'a [Arg],
+        used: Span,
+        env: &Env<'a>,
+    ) -> Option<Value<'a>> {
+        let mut kind = curve_kind(name)?;
+        let mut points = None;
+        for arg in args {
+            match (&arg.name, &arg.value.kind) {
+                (Some(degree), ExprKind::Name(all)) if degree.value == "degree" && all == "all" => {
+                    kind = CurveKind::BezierOneCurve;
+                }
+                (None, _) => points = Some(&arg.value),
+                (Some(other), _) => {
+                    let (function, help) = (name.to_owned(), "write `bezier(degree: all, [..])`".to_owned());
+                    let name = other.value.clone();
+                    return Some(self.poison(Error::UnknownArgument {
+                        function,
+                        name,
+                        used: other.span,
+                        help,
+                    }));
+                }
+            }
+        }
+        Some(match points {
+            Some(points) => self.curve(kind, points, used, env),
+            None => {
+                let (function, wanted) = (name.to_owned(), "a list of points".to_owned());
+                let help = format!("write `{name} [(0m, 0m), ..]`");
+                self.poison(Error::ArgumentCount { function, wanted, found: args.len(), used, help })
+            }
+        })
+    }
+
+    fn curve(&mut self, kind: CurveKind, points: &'a Expr, span: Span, env: &Env<'a>) -> Value<'a> {
+        let points = match &points.kind {
+            ExprKind::List(parts) => parts
+                .iter()
+                .map(|part| self.written_point(part, env))
+                .collect::<Vec<_>>()
+                .into_iter()
+                .collect(),
+            _ => self.computed_points(points, env),
+        };
+        points.map_or(Value::Poison, |points| Value::Curve(ir::Curve { kind, points, span }.into()))
+    }
+
+    fn written_point(&mut self, point: &'a Expr, env: &Env<'a>) -> Option<DVec2> {
+        if let ExprKind::Tuple(parts) = &point.kind
+            && parts.len() == 2
+        {
+            return self.tuple_as(parts, Type::Length, env).triple().map(DVec3::truncate);
+        }
+        let value = self.eval(point, env);
+        self.point2(value, point.span)
+    }
+
+    fn computed_points(&mut self, list: &'a Expr, env: &Env<'a>) -> Option<Vec<DVec2>> {
+        let Value::List(parts) = self.eval_as(list, Type::List, env) else { return None };
+        parts.iter().map(|part| self.point2(part.clone(), list.span)).collect()
+    }
+
+    fn point2(&mut self, value: Value<'a>, span: Span) -> Option<DVec2> {
+        match value {
+            Value::Poison => None,
+            Value::Tuple(parts) if parts.len() == 2 => {
+                let x = self.coerce(parts[0].clone(), Type::Length, span);
+                let y = self.coerce(parts[1].clone(), Type::Length, span);
+                Value::Tuple([x, y].into()).triple().map(DVec3::truncate)
+            }
+            other => {
+                let help = "points of curves have two lengths, such as `(4cm, 10cm)`";
+                self.wrong_type("a point in the plane", &other.noun(), span, help);
+                None
+            }
+        }
+    }
+}
+
+fn curve_kind(word: &str) -> Option<CurveKind> {
+    Some(match word {
+        "bezier" => CurveKind::Bezier,
+        "bspline" => CurveKind::Bspline,
+        "polyline" | "polygon" => CurveKind::Polyline,
+        _ => return None,
+    })
+}
+
+/// The rotation about a unit axis, counter-clockwise seen against it (Rodrigues).
+///
+/// Quarter turns are exact: sines and cosines within rounding of 0 and ±1 are taken as such.
+fn rotation(axis: DVec3, radians: f64) -> DMat3 {
+    let (sin, cos) = sin_cos64(radians);
+    let snap = |x: f64| if (x - x.round()).abs() < 1e-15 { x.round() } else { x };
+    let (sin, cos) = (snap(sin), snap(cos));
+    let DVec3 { x, y, z } = axis;
+    let k = 1.0 - cos;
+    DMat3::from_cols(
+        DVec3::new(cos + x * x * k, y * x * k + z * sin, z * x * k - y * sin),
+        DVec3::new(x * y * k - z * sin, cos + y * y * k, z * y * k + x * sin),
+        DVec3::new(x * z * k + y * sin, y * z * k - x * sin, cos + z * z * k),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn a_quarter_turn_is_exact_and_counter_clockwise() {
+        assert_eq!(rotation(DVec3::Z, FRAC_PI_2) * DVec3::X, DVec3::Y);
+        assert_eq!(rotation(DVec3::X, FRAC_PI_2) * DVec3::Y, DVec3::Z);
+        assert_eq!(rotation(DVec3::Y, FRAC_PI_2) * DVec3::Z, DVec3::X);
+    }
+
+    #[test]
+    fn a_rotation_keeps_lengths_and_its_axis() {
+        let axis = DVec3::new(1.0, 2.0, 3.0).normalize();
+        let turned = rotation(axis, 1.234);
+        assert!((turned * axis - axis).length() < 1e-15);
+        assert!((turned.determinant() - 1.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,338 @@
+//! Expressions: each gives a value.
+
+use super::builtin;
+use super::dimension::{Dimension, Quantity, UNITS, with_unit};
+use super::error::Error;
+use super::scope::{Kind, Scope};
+use super::{Env, Resolver, Step, Value, color};
+use crate::diag::did_you_mean;
+use crate::ir;
+use crate::schema;
+use crate::source::Span;
+use crate::syntax::ast::{Block, Expr, ExprKind, Name, UnaryOp};
+use std::rc::Rc;
+
+impl<'a> Resolver<'a> {
+    /// The value of an expression of which nothing is expected.
+    pub(super) fn eval(&mut self, expr: &'a Expr, env: &Env<'a>) -> Value<'a> {
+        self.deeper(expr.span, |this| this.eval_kind(expr, env))
+    }
+
+    fn eval_kind(&mut self, expr: &'a Expr, env: &Env<'a>) -> Value<'a> {
+        match &expr.kind {
+            ExprKind::Number { value, unit, .. } => self.numeral(*value, unit.as_ref()),
+            ExprKind::FNumber(value) => Value::Number(Quantity::new(*value, Dimension::F_NUMBER)),
+            ExprKind::Size(width, height) => self.size(width, height, env),
+            ExprKind::Color(bytes) => Value::Color(color::from_bytes(*bytes)),
+            ExprKind::Text(text) => Value::Text(text.as_str().into()),
+            ExprKind::Bool(value) => Value::Bool(*value),
+            ExprKind::Name(name) => self.name(name, expr.span, env),
+            ExprKind::Access { base, field } => self.access(base, field, env),
+            ExprKind::Call { callee, args } => self.call(callee, args, expr.span, env),
+            ExprKind::Index { base, index } => self.index(base, index, env),
+            ExprKind::Tagged { tag, value } => self.tagged(tag, value, env),
+            ExprKind::On(target) => self.on(target, env),
+            ExprKind::Data(numbers) => Value::List(numbers.iter().map(|&x| Value::number(x)).collect()),
+            ExprKind::List(parts) => self.list(parts, expr.span, env),
+            ExprKind::Comprehension { value, name, range, filter } => {
+                self.comprehension(value, name, range, filter.as_deref(), env)
+            }
+            ExprKind::Tuple(parts) => self.tuple(parts, env),
+            ExprKind::Unary { op, operand } => self.unary(op.value, operand, env),
+            ExprKind::Binary { .. } => self.binary(expr, env),
+            ExprKind::If { condition, then, otherwise } => {
+                self.choice(condition, then, otherwise.as_ref(), expr.span, env)
+            }
+            ExprKind::Object(object) => self.object(object, env),
+            ExprKind::Block(_) => self.poison(Error::Misplaced {
+                what: "a block without a name".to_owned(),
+                place: "here",
+                used: Span::new(expr.span.start, expr.span.start + 1),
+                help: "write what it is before the brace, such as `diffuse {`".to_owned(),
+            }),
+            ExprKind::Poison => Value::Poison,
+        }
+    }
+
+    fn numeral(&mut self, value: f64, unit: Option<&Name>) -> Value<'a> {
+        let Some(unit) = unit else { return Value::number(value) };
+        if let Some(quantity) = with_unit(value, unit) {
+            return Value::Number(quantity);
+        }
+        let known = || UNITS.iter().map(|(name, ..)| *name);
+        let help = did_you_mean(unit, known())
+            .unwrap_or_else(|| format!("the units are {}", known().collect::<Vec<_>>().join(" ")));
+        self.poison(Error::UnknownUnit { unit: unit.value.clone(), used: unit.span, help })
+    }
+
+    fn size(&mut self, width: &'a Expr, height: &'a Expr, env: &Env<'a>) -> Value<'a> {
+        let mut side = |expr: &'a Expr| {
+            let value = self.eval_as(expr, schema::Type::Pixels, env);
+            let Value::Number(pixels) = value else { return None };
+            if pixels.value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&pixels.value) {
+                return Some(pixels.value as u32);
+            }
+            self.wrong_type(
+                "a whole number of pixels",
+                "a broken number",
+                expr.span,
+                "write it such as `1024 x 768`",
+            );
+            None
+        };
+        match (side(width), side(height)) {
+            (Some(width), Some(height)) => Value::Size(width, height),
+            _ => Value::Poison,
+        }
+    }
+
+    /// A name: what the scene defines, or a built-in function, or a colour.
+    pub(super) fn name(&mut self, name: &str, used: Span, env: &Env<'a>) -> Value<'a> {
+        if let Some((scope, definition)) = env.find(name) {
+            return self.value_of(&scope, &definition);
+        }
+        if let Some(builtin) = builtin::find(name) {
+            return Value::Builtin(builtin);
+        }
+        if let Some(color) = color::named(name) {
+            return Value::Color(color);
+        }
+        let help = unknown_name_help(name, env);
+        self.poison(Error::UnknownName { name: name.to_owned(), used, help })
+    }
+
+    /// `mat.gold`, `p.x`.
+    fn access(&mut self, base: &'a Expr, field: &'a Name, env: &Env<'a>) -> Value<'a> {
+        match self.eval(base, env) {
+            Value::Poison => Value::Poison,
+            Value::Module(scope) => self.member(&scope, base.span, field),
+            Value::Tuple(parts) => {
+                let part = ["x", "y", "z"].iter().position(|axis| *axis == field.value);
+                part.and_then(|i| parts.get(i)).cloned().unwrap_or_else(|| {
+                    let help = "its parts are `x`, `y` and `z`";
+                    self.unknown_member("this point", field, Some(help.to_owned()))
+                })
+            }
+            Value::Color(color) => match field.as_str() {
+                "r" => Value::number(color.r.into()),
+                "g" => Value::number(color.g.into()),
+                "b" => Value::number(color.b.into()),
+                _ => self.unknown_member(
+                    "this colour",
+                    field,
+                    Some("its parts are `r`, `g` and `b`".to_owned()),
+                ),
+            },
+            other => self.unknown_member(&other.noun(), field, None),
+        }
+    }
+
+    fn member(&mut self, scope: &Env<'a>, module: Span, field: &Name) -> Value<'a> {
+        if let Some(definition) = scope.own(field) {
+            return self.value_of(scope, &definition);
+        }
+        let names = scope.in_order();
+        let help = did_you_mean(field, names.iter().map(|definition| definition.name));
+        let owner = format!("`{}`", self.text(module));
+        self.unknown_member(&owner, field, help)
+    }
+
+    fn unknown_member(&mut self, owner: &str, field: &Name, help: Option<String>) -> Value<'a> {
+        let name = field.value.clone();
+        self.poison(Error::UnknownMember { owner: owner.to_owned(), name, used: field.span, help })
+    }
+
+    fn index(&mut self, base: &'a Expr, index: &'a Expr, env: &Env<'a>) -> Value<'a> {
+        let (list, at) = (self.eval(base, env), self.eval_as(index, schema::Type::Int, env));
+        let parts = match list {
+            Value::List(parts) | Value::Tuple(parts) => parts,
+            Value::Poison => return Value::Poison,
+            other => {
+                let help = "lists are written `[1, 2, 3]`";
+                return self.wrong_type("a list", &other.noun(), base.span, help);
+            }
+        };
+        let Value::Number(Quantity { value: at, .. }) = at else { return Value::Poison };
+        let found = if at < 0.0 { None } else { parts.get(at as usize) };
+        found.cloned().unwrap_or_else(|| {
+            self.poison(Error::OutOfBounds { index: at, len: parts.len(), used: index.span })
+        })
+    }
+
+    /// `on goblet`: the name under which it will be placed.
+    fn on(&mut self, target: &'a Expr, env: &Env<'a>) -> Value<'a> {
+        let instance = match &target.kind {
+            ExprKind::Name(name) => {
+                env.find(name).filter(|(_, found)| matches!(found.kind, Kind::Instance(..)))
+            }
+            _ => None,
+        };
+        let id = match instance {
+            Some((_, definition)) => self.name_id(&definition),
+            None => match self.eval(target, env) {
+                Value::Object(node) if let Some(id) = node.name() => id,
+                Value::Poison => return Value::Poison,
+                other => {
+                    let help = "name it with `let`, or with `place .. as NAME`";
+                    return self.wrong_type("the name of an object", &other.noun(), target.span, help);
+                }
+            },
+        };
+        Value::Focus(Rc::new(ir::Focus::On(id, self.text(target.span))))
+    }
+
+    fn list(&mut self, parts: &'a [Expr], span: Span, env: &Env<'a>) -> Value<'a> {
+        if !self.spend_elements(parts.len(), span) {
+            return Value::Poison;
+        }
+        Value::List(parts.iter().map(|part| self.eval(part, env)).collect())
+    }
+
+    fn tuple(&mut self, parts: &'a [Expr], env: &Env<'a>) -> Value<'a> {
+        let values: Rc<[Value]> = parts.iter().map(|part| self.eval(part, env)).collect();
+        if values.iter().any(Value::is_poison) { Value::Poison } else { Value::Tuple(values) }
+    }
+
+    fn comprehension(
+        &mut self,
+        value: &'a Expr,
+        name: &'a Name,
+        range: &'a Expr,
+        filter: Option<&'a Expr>,
+        env: &Env<'a>,
+    ) -> Value<'a> {
+        let mut list = Vec::new();
+        let complete = self.repeat(name, range, env, |this, turn| {
+            let keep = filter.is_none_or(|filter| {
+                !matches!(this.eval_as(filter, schema::Type::Bool, turn), Value::Bool(false))
+            });
+            if keep {
+                list.push(this.eval(value, turn));
+            }
+            this.spend_elements(1, value.span)
+        });
+        if complete { Value::List(list.into()) } else { Value::Poison }
+    }
+
+    /// Runs `turn` for each element of a range or list, in a scope where `name` is the element. A poisoned range
+    /// takes one turn, so that mistakes in the body are found. The result says whether all turns were taken.
+    pub(super) fn repeat(
+        &mut self,
+        name: &'a Name,
+        range: &'a Expr,
+        env: &Env<'a>,
+        mut turn: impl FnMut(&mut Self, &Env<'a>) -> bool,
+    ) -> bool {
+        let over = self.eval(range, env);
+        let mut one = |this: &mut Self, value: Value<'a>| {
+            if !this.spend_turn(name.span) {
+                return false;
+            }
+            let scope = Scope::new(Some(Rc::clone(env)));
+            let number = match value {
+                Value::Number(quantity) => Some(quantity),
+                _ => None,
+            };
+            scope.give(&name.value, name.span, value);
+            this.trail.push(Step::Turn(name, number));
+            let go_on = turn(this, &scope);
+            this.trail.pop();
+            go_on
+        };
+        match over {
+            Value::Range(start, end, inclusive) => {
+                let Some(turns) = self.turns(start, end, inclusive, range.span) else { return false };
+                (0..turns).all(|i| one(self, Value::number(start.value + i as f64)))
+            }
+            Value::List(parts) => parts.iter().all(|part| one(self, part.clone())),
+            Value::Poison => {
+                one(self, Value::Poison);
+                false
+            }
+            other => {
+                self.wrong_type(
+                    "a range or a list",
+                    &other.noun(),
+                    range.span,
+                    "write a range such as `0..10`",
+                );
+                false
+            }
+        }
+    }
+
+    /// The number of whole steps in a range of whole numbers.
+    fn turns(&mut self, start: Quantity, end: Quantity, inclusive: bool, span: Span) -> Option<u64> {
+        let plain = start.dimension == Dimension::NONE;
+        if !plain || start.value.fract() != 0.0 || end.value.fract() != 0.0 {
+            let found = if plain { "a range of broken numbers" } else { "a range of quantities" };
+            let help = "count with whole numbers, and multiply in the body: `i * 10cm`";
+            self.wrong_type("a range of whole numbers", found, span, help);
+            return None;
+        }
+        Some((end.value - start.value + f64::from(u8::from(inclusive))).max(0.0) as u64)
+    }
+
+    fn unary(&mut self, op: UnaryOp, operand: &'a Expr, env: &Env<'a>) -> Value<'a> {
+        let value = self.eval(operand, env);
+        match (op, value) {
+            (_, Value::Poison) => Value::Poison,
+            (UnaryOp::Not, value) => match self.coerce(value, schema::Type::Bool, operand.span) {
+                Value::Bool(value) => Value::Bool(!value),
+                _ => Value::Poison,
+            },
+            (UnaryOp::Plus, value @ (Value::Number(_) | Value::Tuple(_))) => value,
+            (UnaryOp::Minus, Value::Number(q)) => Value::Number(Quantity::new(-q.value, q.dimension)),
+            (UnaryOp::Minus, value @ Value::Tuple(_)) => self.scale_tuple(&value, -1.0, operand.span),
+            (_, other) => {
+                let noun = other.noun();
+                self.wrong_type("a number", &noun, operand.span, "a sign belongs before a number or a point")
+            }
+        }
+    }
+
+    fn choice(
+        &mut self,
+        condition: &'a Expr,
+        then: &'a Block,
+        otherwise: Option<&'a Block>,
+        span: Span,
+        env: &Env<'a>,
+    ) -> Value<'a> {
+        match self.eval_as(condition, schema::Type::Bool, env) {
+            Value::Bool(true) => self.body(then, env),
+            Value::Bool(false) => match otherwise {
+                Some(otherwise) => self.body(otherwise, env),
+                None => self.poison(Error::NoValue {
+                    what: "an `if` whose condition does not hold",
+                    used: span,
+                    help: "give it an `else { .. }`",
+                }),
+            },
+            _ => {
+                // The condition is poisoned: look for mistakes in both branches, and stay silent.
+                self.body(then, env);
+                if let Some(otherwise) = otherwise {
+                    self.body(otherwise, env);
+                }
+                Value::Poison
+            }
+        }
+    }
+}
+
+/// What to say of a name that nothing defines.
+pub fn unknown_name_help(name: &str, env: &Env) -> Option<String> {
+    if let Some(block) = schema::block(name) {
+        return Some(format!("`{name}` needs its braces, as in `{}`", block.example));
+    }
+    let visible = env.visible();
+    let mut known: Vec<&str> = visible.iter().map(|definition| definition.name).collect();
+    let defined = did_you_mean(name, known.iter().copied());
+    for name in builtin::names().chain(color::NAMED.iter().map(|(name, _)| *name)) {
+        known.push(name);
+    }
+    defined
+        .or_else(|| did_you_mean(name, known))
+        .or_else(|| Some(format!("define it with `let {name} = ..`, or take it away")))
+}

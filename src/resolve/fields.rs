@@ -1,0 +1,285 @@
+//! Reading a block by what the registry declares of its kind.
+
+use super::dimension::Quantity;
+use super::error::Error;
+use super::{Env, Resolver, Value};
+use crate::diag::nearest;
+use crate::ir::Input;
+use crate::math::{DVec3, Rgb};
+use crate::schema::{self, Field, Literal, Need};
+use crate::source::{Span, Spanned};
+use crate::syntax::ast::{Block, Entry, Name};
+
+/// A block with nothing in it.
+pub static EMPTY: Block = Block { entries: Vec::new(), span: Span::new(0, 0), poisoned: false };
+
+/// A block whose fields were read: each absent, or poisoned, or of its declared type.
+pub struct Fields<'a> {
+    pub block: &'static schema::Block,
+    /// The words before the brace.
+    pub head: Span,
+    /// Parallel to the block's declared fields.
+    slots: Vec<Option<Spanned<Value<'a>>>>,
+    /// Whether something in it was wrong and has been reported.
+    pub poisoned: bool,
+}
+
+impl<'a> Resolver<'a> {
+    /// Reads `body` by what `block` declares. `head` is what a missing field is reported at.
+    pub(super) fn read(
+        &mut self,
+        block: &'static schema::Block,
+        head: Span,
+        body: &'a Block,
+        env: &Env<'a>,
+    ) -> Fields<'a> {
+        let mut fields = Fields { poisoned: body.poisoned, ..Fields::empty(block, head) };
+        let mut names: Vec<Option<&Name>> = vec![None; block.field_count()];
+        for entry in &body.entries {
+            match entry {
+                Entry::Field(field) => {
+                    let Some((index, declared)) = self.declared(block, &field.name) else {
+                        fields.poisoned = true;
+                        continue;
+                    };
+                    if let Some(first) = names[index] {
+                        let (first, second) = (first.span, field.name.span);
+                        self.report(Error::DuplicateField { field: field.name.value.clone(), first, second });
+                        continue;
+                    }
+                    names[index] = Some(&field.name);
+                    let value = self.eval_as(&field.value, declared.ty, env);
+                    let value = self.in_range(value, declared, field.value.span);
+                    fields.poisoned |= value.is_poison();
+                    fields.slots[index] = Some(Spanned::new(value, field.value.span));
+                }
+                Entry::Item(_) if block.holds_items() => {}
+                Entry::Item(item) => {
+                    fields.poisoned = true;
+                    self.misplaced_in(block, item);
+                }
+            }
+        }
+        self.report_missing(&mut fields);
+        fields
+    }
+
+    fn declared(&mut self, block: &'static schema::Block, name: &Name) -> Option<(usize, &'static Field)> {
+        let found = block.fields().enumerate().find(|(_, field)| field.name == name.value);
+        if found.is_none() {
+            let help = unknown_field_help(block, name);
+            let (block, field) = (block.kind.to_owned(), name.value.clone());
+            self.report(Error::UnknownField { block, field, used: name.span, help });
+        }
+        found
+    }
+
+    /// The value, unless it lies outside the range that its field declares.
+    fn in_range(&mut self, value: Value<'a>, field: &Field, used: Span) -> Value<'a> {
+        let (Some(range), Value::Number(Quantity { value: number, .. })) = (field.range, &value) else {
+            return value;
+        };
+        if range.physical || range.contains(*number) {
+            return value;
+        }
+        let found = format!("`{}`", field.ty.write(*number));
+        let range = range.describe(field.ty);
+        self.poison(Error::OutOfRange { field: field.name.to_owned(), range, found, used, said: None })
+    }
+
+    fn report_missing(&mut self, fields: &mut Fields<'a>) {
+        // In a block that could not be read whole, what seems missing may be what could not be read.
+        let excused = fields.poisoned;
+        for (slot, field) in fields.slots.iter().zip(fields.block.fields()) {
+            if slot.is_none() && field.need == Need::Required {
+                fields.poisoned = true;
+                if !excused {
+                    let (block, name) = (fields.block.kind.to_owned(), field.name.to_owned());
+                    let help =
+                        format!("write {} for it, such as `{name}: {}`", field.ty.noun(), field.example());
+                    self.report(Error::MissingField { block, field: name, head: fields.head, help });
+                }
+            }
+        }
+    }
+
+    /// Reports that none of `names` is given where one has to be.
+    pub(super) fn needs_one(&mut self, fields: &Fields<'a>, names: &[&str]) {
+        if fields.poisoned {
+            return;
+        }
+        let example = fields.block.field(names[0]).map_or("", Field::example);
+        let block = fields.block.kind.to_owned();
+        let field = names.join("` or `");
+        let help = format!("say one of them, such as `{}: {example}`", names[0]);
+        self.report(Error::MissingField { block, field, head: fields.head, help });
+    }
+
+    /// Reports two fields that say the same thing. The result says whether that was so.
+    pub(super) fn conflict(&mut self, fields: &Fields<'a>, one: &str, other: &str) -> bool {
+        let (Some(first), Some(second)) = (fields.span(one), fields.span(other)) else { return false };
+        let (one, other) = (one.to_owned(), other.to_owned());
+        self.report(Error::ConflictingFields { one, other, first, second });
+        true
+    }
+}
+
+/// Near names, then what other programs call it, then all there is.
+fn unknown_field_help(block: &schema::Block, name: &Name) -> String {
+    if let Some(ours) = schema::foreign_field(name).filter(|ours| block.field(ours).is_some()) {
+        return match (ours, name.as_str()) {
+            ("transform", word) => format!("write `transform: {word}(..)`"),
+            _ => format!("it is called `{ours}` here"),
+        };
+    }
+    let near = nearest(name, block.fields().map(|field| field.name));
+    if !near.is_empty() {
+        return format!("did you mean {}?", schema::quoted(&near));
+    }
+    let all: Vec<&str> = block.fields().map(|field| field.name).collect();
+    format!("its fields are {}", all.join(", "))
+}
+
+impl<'a> Fields<'a> {
+    /// A block that says nothing.
+    pub fn empty(block: &'static schema::Block, head: Span) -> Self {
+        Self { block, head, slots: vec![None; block.field_count()], poisoned: false }
+    }
+
+    fn slot(&self, name: &str) -> Option<&Spanned<Value<'a>>> {
+        self.slots[self.block.position(name)?].as_ref()
+    }
+
+    /// Whether it was written, be it poisoned.
+    pub fn has(&self, name: &str) -> bool {
+        self.slot(name).is_some()
+    }
+
+    /// Where its value stands, when it was written.
+    pub fn span(&self, name: &str) -> Option<Span> {
+        self.slot(name).map(|slot| slot.span)
+    }
+
+    /// Its value, when it was written and makes sense.
+    pub fn value(&self, name: &str) -> Option<&Spanned<Value<'a>>> {
+        self.slot(name).filter(|slot| !slot.is_poison())
+    }
+
+    /// The default that the registry declares, at the block's head.
+    fn default(&self, name: &str) -> Option<Spanned<Literal>> {
+        match self.block.field(name)?.need {
+            Need::Default(literal) => Some(Spanned::new(literal, self.head)),
+            _ => None,
+        }
+    }
+
+    /// A number in SI units, or its default.
+    pub fn number(&self, name: &str) -> Option<Spanned<f64>> {
+        match self.value(name) {
+            Some(Spanned { value: Value::Number(quantity), span }) => {
+                Some(Spanned::new(quantity.value, *span))
+            }
+            _ => match self.default(name)? {
+                Spanned { value: Literal::Number(value), span } => Some(Spanned::new(value, span)),
+                _ => None,
+            },
+        }
+    }
+
+    /// A whole number, or its default; beyond the type's range, the end of the range.
+    pub fn count(&self, name: &str) -> Option<Spanned<u32>> {
+        Some(self.number(name)?.map(|value| value as u32))
+    }
+
+    /// A number in SI units, when it was written.
+    pub fn given(&self, name: &str) -> Option<Spanned<f64>> {
+        self.value(name).and_then(|_| self.number(name))
+    }
+
+    /// A whole number, when it was written.
+    pub fn given_count(&self, name: &str) -> Option<Spanned<u32>> {
+        self.value(name).and_then(|_| self.count(name))
+    }
+
+    /// `true` or `false`, or its default.
+    pub fn flag(&self, name: &str) -> Option<bool> {
+        match (self.value(name).map(|slot| &slot.value), self.default(name).map(|literal| literal.value)) {
+            (Some(Value::Bool(value)), _) => Some(*value),
+            (_, Some(Literal::Bool(value))) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The default of a pair of whole numbers.
+    pub fn pair(&self, name: &str) -> Option<Spanned<(u32, u32)>> {
+        match self.default(name)? {
+            Spanned { value: Literal::Pair([width, height]), span } => {
+                Some(Spanned::new((width, height), span))
+            }
+            _ => None,
+        }
+    }
+
+    /// One of the words that its type lists, or its default.
+    pub fn word(&self, name: &str) -> Option<Spanned<&'static str>> {
+        match self.value(name) {
+            Some(Spanned { value: Value::Word(word), span }) => Some(Spanned::new(word, *span)),
+            _ => match self.default(name)? {
+                Spanned { value: Literal::Word(word), span } => Some(Spanned::new(word, span)),
+                _ => None,
+            },
+        }
+    }
+
+    /// A text.
+    pub fn text(&self, name: &str) -> Option<Spanned<String>> {
+        match self.value(name)? {
+            Spanned { value: Value::Text(text), span } => Some(Spanned::new(text.to_string(), *span)),
+            _ => None,
+        }
+    }
+
+    /// Three numbers in SI units (the third 0 for a pair), or their default.
+    pub fn triple(&self, name: &str) -> Option<Spanned<DVec3>> {
+        match self.value(name) {
+            Some(slot) => slot.triple().map(|triple| Spanned::new(triple, slot.span)),
+            None => match self.default(name)? {
+                Spanned { value: Literal::Triple(xyz), span } => {
+                    Some(Spanned::new(DVec3::from_array(xyz), span))
+                }
+                _ => None,
+            },
+        }
+    }
+
+    /// A colour, or its default grey.
+    pub fn color(&self, name: &str) -> Option<Spanned<Rgb>> {
+        match self.value(name) {
+            Some(Spanned { value: Value::Color(color), span }) => Some(Spanned::new(*color, *span)),
+            _ => match self.default(name)? {
+                Spanned { value: Literal::Number(grey), span } => {
+                    Some(Spanned::new(Rgb::gray(grey as f32), span))
+                }
+                _ => None,
+            },
+        }
+    }
+
+    /// A colour or a texture, or the default grey.
+    pub fn input(&self, name: &str) -> Option<Input> {
+        match self.value(name) {
+            Some(Spanned { value: Value::Texture(handle), span }) => {
+                Some(Input::Texture(Spanned::new(*handle, *span)))
+            }
+            _ => self.color(name).map(Input::Constant),
+        }
+    }
+
+    /// The fields of a block without a head.
+    pub fn nested(&self, name: &str) -> Option<&Self> {
+        match self.value(name).map(|slot| &slot.value) {
+            Some(Value::Block(fields)) => Some(fields),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! How the picture is computed.
+
+use super::{Area, Block, Field, Range, Type, field};
+
+const METHODS: Type = Type::Choice(&["auto", "pt", "ppm"]);
+
+const RENDER: &[Field] = &[
+    field("method", METHODS, "Path tracing, photon mapping, or whichever suits.").or_word("auto"),
+    field("stop", Type::Stop, "When it is done: `samples`, `passes`, `time` or `error`, joined by `or`."),
+    field("depth", Type::Int, "The most vertices of a path.")
+        .or(32.0)
+        .within(Range::closed(1.0, 65_535.0))
+        .like("32"),
+    field("seed", Type::Int, "Chooses the random numbers.")
+        .or(0.0)
+        .within(Range::closed(0.0, 9.0e15))
+        .like("7"),
+    field("photons", Type::Block("photons"), "For photon mapping; without it, chosen by the compiler."),
+];
+
+const PHOTONS: &[Field] = &[
+    field("count", Type::Int, "Emitted a pass.").within(Range::at_least(1.0).physical()).like("200000"),
+    field("k", Type::Int, "The most photons of an estimate.")
+        .within(Range::at_least(1.0).physical())
+        .like("60"),
+    field("radius", Type::Length, "The largest radius of an estimate in the first pass.")
+        .within(Range::above(0.0).physical())
+        .like("5cm"),
+    field("shrink", Type::Number, "How fast the radius shrinks: 1 is never.")
+        .or(2.0 / 3.0)
+        .within(Range::open(0.0, 1.0).physical())
+        .like("0.67"),
+];
+
+pub(super) const BLOCKS: &[Block] = &[
+    Block {
+        kind: "render",
+        area: Area::Item,
+        doc: "How the picture is computed; all of it may be left to the compiler.",
+        example: "render { method: auto, stop: error(1%) or time(5min) }",
+        own: RENDER,
+    },
+    Block {
+        kind: "photons",
+        area: Area::Render,
+        doc: "Settings of photon mapping.",
+        example: "photons: { count: 200000, k: 60, radius: 5cm }",
+        own: PHOTONS,
+    },
+];

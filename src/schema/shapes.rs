@@ -1,0 +1,130 @@
+//! Objects. Each has its own frame; `transform` leads out of it.
+
+use super::{Area, Block, Field, Range, Type, field};
+
+/// What every object takes.
+pub(super) const COMMON: &[Field] = &[
+    field("transform", Type::Transform, "Where it is, how large, and how turned."),
+    field("material", Type::Material, "What it is made of; without it, grey."),
+];
+
+/// Sizes that `check` looks at.
+const SIZE: Range = Range::above(0.0).physical();
+
+const MISSING: Type = Type::Choice(&["error", "skip"]);
+
+const SPHERE: &[Field] = &[
+    field("center", Type::Point, "Its middle.").or_triple(0.0, 0.0, 0.0),
+    field("radius", Type::Length, "From its middle to its surface.").required().within(SIZE),
+];
+
+const PLANE: &[Field] = &[
+    field("x", Type::Length, "It is all points with this x; seen from larger x."),
+    field("y", Type::Length, "It is all points with this y; seen from above.").like("0m"),
+    field("z", Type::Length, "It is all points with this z; seen from larger z."),
+    field("normal", Type::Vector, "The direction it faces."),
+    field("offset", Type::Length, "Its distance from the origin along `normal`.").or(0.0),
+];
+
+const DISK: &[Field] = &[
+    field("center", Type::Point, "Its middle.").or_triple(0.0, 0.0, 0.0),
+    field("normal", Type::Vector, "The direction it faces.").or_triple(0.0, 1.0, 0.0),
+    field("radius", Type::Length, "From its middle to its rim.").required().within(SIZE),
+];
+
+const QUAD: &[Field] = &[
+    field("origin", Type::Point, "One corner.").required().like("(0m, 0m, 0m)"),
+    field("edge_u", Type::Offset, "From that corner to a neighbour.").required(),
+    field("edge_v", Type::Offset, "To its other neighbour; it faces edge_u × edge_v.")
+        .required()
+        .like("(0m, 1m, 0m)"),
+];
+
+const BOX: &[Field] = &[
+    field("min", Type::Point, "The corner with the smallest coordinates.").like("(0m, 0m, 0m)"),
+    field("max", Type::Point, "The corner with the largest.").like("(1m, 1m, 1m)"),
+    field("center", Type::Point, "Its middle, instead of `min` and `max`.").like("(0m, 0m, 0m)"),
+    field("size", Type::Offset, "Its edges along x, y and z, with `center`.").like("(1m, 1m, 1m)"),
+];
+
+const TRIANGLE: &[Field] = &[
+    field("a", Type::Point, "A corner.").required().like("(0m, 0m, 0m)"),
+    field("b", Type::Point, "The next, counter-clockwise seen from the front.")
+        .required()
+        .like("(1m, 0m, 0m)"),
+    field("c", Type::Point, "The last.").required().like("(0m, 1m, 0m)"),
+];
+
+const MESH: &[Field] = &[
+    field("file", Type::Text, "An OBJ file, beside the scene.").required().like("\"teapot.obj\""),
+    field("scale", Type::Number, "A factor on its coordinates, which count as metres.").or(1.0).within(SIZE),
+    field("smooth", Type::Bool, "Whether normals are interpolated; without it, as the file says."),
+    field("missing", MISSING, "Whether a missing file is a mistake, or leaves the mesh out.")
+        .or_word("error"),
+];
+
+const REVOLVE: &[Field] = &[
+    field("profile", Type::Curve, "Points (radius, height), turned about the y axis.").required(),
+    field("method", Type::Choice(&["exact", "tessellated"]), "By its equation, or as triangles.")
+        .or_word("exact"),
+    field(
+        "tolerance",
+        Type::Length,
+        "How far triangles may lie from it; without it, a thousandth of its size.",
+    )
+    .within(SIZE)
+    .like("0.1mm"),
+];
+
+const EXTRUDE: &[Field] = &[
+    field("outline", Type::Outline, "Its edge in the xy plane; the last point joins the first.").required(),
+    field("holes", Type::Outlines, "What is cut out of it."),
+    field("depth", Type::Length, "It reaches from z = 0 to this.").required().within(SIZE).like("10cm"),
+];
+
+const fn shape(kind: &'static str, own: &'static [Field], doc: &'static str, example: &'static str) -> Block {
+    Block { kind, area: Area::Shape, doc, example, own }
+}
+
+pub(super) const BLOCKS: &[Block] = &[
+    shape("sphere", SPHERE, "A ball.", "sphere { center: (0m, 1m, 0m), radius: 30cm }"),
+    shape("plane", PLANE, "An endless plane: one of `x`, `y`, `z`, or `normal`.", "plane { y: 0m }"),
+    shape(
+        "disk",
+        DISK,
+        "A flat round plate.",
+        "disk { center: (0m, 1m, 0m), normal: (0, 1, 0), radius: 30cm }",
+    ),
+    shape(
+        "quad",
+        QUAD,
+        "A parallelogram.",
+        "quad { origin: (0m, 0m, 0m), edge_u: (1m, 0m, 0m), edge_v: (0m, 1m, 0m) }",
+    ),
+    shape(
+        "box",
+        BOX,
+        "A box along the axes: `min` and `max`, or `center` and `size`.",
+        "box { center: (0m, 50cm, 0m), size: (1m, 1m, 1m) }",
+    ),
+    shape(
+        "triangle",
+        TRIANGLE,
+        "One triangle.",
+        "triangle { a: (0m, 0m, 0m), b: (1m, 0m, 0m), c: (0m, 1m, 0m) }",
+    ),
+    shape("mesh", MESH, "Triangles from a file.", "mesh { file: \"teapot.obj\", scale: 0.01 }"),
+    shape(
+        "revolve",
+        REVOLVE,
+        "A profile turned about the y axis.",
+        "revolve { profile: polyline [(0cm, 0cm), (4cm, 0cm), (0cm, 9cm)] }",
+    ),
+    shape(
+        "extrude",
+        EXTRUDE,
+        "An outline drawn out along z.",
+        "extrude { outline: polygon [(0cm, 0cm), (4cm, 0cm), (0cm, 3cm)], depth: 1cm }",
+    ),
+    shape("group", &[], "Several items that move together.", "group { sphere { radius: 30cm } }"),
+];

@@ -1,0 +1,249 @@
+//! What may stand in a field.
+
+/// The type of a field, of a parameter, of a function's argument.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Type {
+    /// A whole number.
+    Int,
+    /// A plain number, or a percentage.
+    Number,
+    /// Metres.
+    Length,
+    /// Radians.
+    Angle,
+    /// Seconds.
+    Time,
+    /// Watts.
+    Power,
+    /// Kelvin.
+    Temperature,
+    /// Pixels.
+    Pixels,
+    /// Steps of exposure, each a factor of 2.
+    Exposure,
+    /// `f/2.8`.
+    FNumber,
+    /// `true` or `false`.
+    Bool,
+    /// Words in quotes.
+    Text,
+    /// Three lengths, or two: a place.
+    Point,
+    /// Three lengths: the way from one place to another.
+    Offset,
+    /// Three plain numbers: a direction.
+    Vector,
+    /// Two plain numbers.
+    Pair,
+    /// Two plain numbers, or one for both.
+    Cells,
+    /// Linear colour; a plain number is grey.
+    Color,
+    /// A colour, or the temperature of a black body.
+    LightColor,
+    /// A colour or number in W/m²/sr.
+    Radiance,
+    /// `#f4fff6 per 10cm`.
+    Absorption,
+    /// A colour or a texture.
+    ColorInput,
+    /// A number or a texture.
+    NumberInput,
+    /// A colour, a temperature, or an image.
+    SkyInput,
+    /// A material.
+    Material,
+    /// A texture.
+    Texture,
+    /// An object.
+    Object,
+    /// A transform.
+    Transform,
+    /// A lens.
+    Lens,
+    /// A length, a point or `on NAME`.
+    Focus,
+    /// Pixels by pixels.
+    Size,
+    /// A pixel filter.
+    Filter,
+    /// `samples(64) or time(5min)`.
+    Stop,
+    /// `uv` or `planar { .. }`.
+    Projection,
+    /// A profile: `bezier`, `bspline` or `polyline`.
+    Curve,
+    /// An outline: `polygon`, `bezier` or `bspline`.
+    Outline,
+    /// A list of outlines.
+    Outlines,
+    /// A list of anything.
+    List,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// A block without a head, with the fields that this kind declares.
+    Block(&'static str),
+}
+
+impl Type {
+    /// The types that a `param` or a function may name.
+    pub const NAMED: &'static [(&'static str, Self)] = &[
+        ("int", Self::Int),
+        ("number", Self::Number),
+        ("ratio", Self::Number),
+        ("length", Self::Length),
+        ("angle", Self::Angle),
+        ("time", Self::Time),
+        ("power", Self::Power),
+        ("temperature", Self::Temperature),
+        ("exposure", Self::Exposure),
+        ("f_number", Self::FNumber),
+        ("bool", Self::Bool),
+        ("string", Self::Text),
+        ("point", Self::Point),
+        ("vector", Self::Vector),
+        ("color", Self::Color),
+        ("material", Self::Material),
+        ("texture", Self::Texture),
+        ("object", Self::Object),
+        ("light", Self::Object),
+        ("transform", Self::Transform),
+        ("list", Self::List),
+    ];
+
+    /// The type that a `param` or a function calls by this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::NAMED.iter().find(|(known, _)| *known == name).map(|&(_, ty)| ty)
+    }
+
+    /// What is wanted, with its article: "a length".
+    pub fn noun(self) -> String {
+        match self {
+            Self::Choice(words) => format!("one of {}", quoted(words)),
+            Self::Block(_) => "a block in braces".to_owned(),
+            _ => self.plain_noun().to_owned(),
+        }
+    }
+
+    const fn plain_noun(self) -> &'static str {
+        match self {
+            Self::Int => "a whole number",
+            Self::Number => "a number",
+            Self::Length => "a length",
+            Self::Angle => "an angle",
+            Self::Time => "a time",
+            Self::Power => "a power",
+            Self::Temperature => "a temperature",
+            Self::Pixels => "a number of pixels",
+            Self::Exposure => "an exposure",
+            Self::FNumber => "an f-number",
+            Self::Bool => "`true` or `false`",
+            Self::Text => "a text in quotes",
+            Self::Point => "a point",
+            Self::Offset => "a vector of lengths",
+            Self::Vector => "a direction",
+            Self::Pair => "a pair of numbers",
+            Self::Cells => "a number or a pair of numbers",
+            Self::Color => "a colour",
+            Self::LightColor => "a colour or a temperature",
+            Self::Radiance => "a number or a colour",
+            Self::Absorption => "a colour per length",
+            Self::ColorInput => "a colour or a texture",
+            Self::NumberInput => "a number or a texture",
+            Self::SkyInput => "a colour or an image",
+            Self::Material => "a material",
+            Self::Texture => "a texture",
+            Self::Object => "an object",
+            Self::Transform => "a transform",
+            Self::Lens => "a lens",
+            Self::Focus => "a length, a point or `on NAME`",
+            Self::Size => "a size in pixels",
+            Self::Filter => "a pixel filter",
+            Self::Stop => "a rule to stop by",
+            Self::Projection => "a projection",
+            Self::Curve => "a curve",
+            Self::Outline => "an outline",
+            Self::Outlines => "a list of outlines",
+            Self::List => "a list",
+            Self::Choice(_) | Self::Block(_) => "a word",
+        }
+    }
+
+    /// A value of this type.
+    pub const fn example(self) -> &'static str {
+        match self {
+            Self::Int => "12",
+            Self::Number | Self::NumberInput => "0.5",
+            Self::Length => "30cm",
+            Self::Angle => "30deg",
+            Self::Time => "5min",
+            Self::Power => "60W",
+            Self::Temperature => "3200K",
+            Self::Pixels => "1px",
+            Self::Exposure => "1EV",
+            Self::FNumber => "f/2.8",
+            Self::Bool => "true",
+            Self::Text => "\"wood.png\"",
+            Self::Point => "(0m, 1m, 2m)",
+            Self::Offset => "(1m, 0m, 0m)",
+            Self::Vector => "(0, 1, 0)",
+            Self::Pair => "(2, 2)",
+            Self::Cells => "8",
+            Self::Color | Self::ColorInput => "#ff8800",
+            Self::LightColor => "3200K",
+            Self::Radiance => "10",
+            Self::Absorption => "#f4fff6 per 10cm",
+            Self::SkyInput => "image(\"sky.hdr\")",
+            Self::Material => "diffuse { color: #ff8800 }",
+            Self::Texture => "image(\"wood.png\")",
+            Self::Object => "sphere { radius: 30cm }",
+            Self::Transform => "scale(2) then translate(0m, 1m, 0m)",
+            Self::Lens => "thin { focal_length: 50mm, aperture: f/2.8, focus: 2m }",
+            Self::Focus => "2m",
+            Self::Size => "1024 x 768",
+            Self::Filter => "tent(1px)",
+            Self::Stop => "samples(64) or time(5min)",
+            Self::Projection => "uv",
+            Self::Curve => "polyline [(0m, 0m), (10cm, 20cm)]",
+            Self::Outline => "polygon [(0m, 0m), (1m, 0m), (0m, 1m)]",
+            Self::Outlines => "[polygon [(0m, 0m), (1m, 0m), (0m, 1m)]]",
+            Self::List => "[1, 2, 3]",
+            Self::Choice(words) => words[0],
+            Self::Block(_) => "{ .. }",
+        }
+    }
+
+    /// A number in SI units as a scene would say it: `45deg`, `36mm`.
+    pub fn write(self, value: f64) -> String {
+        let rounded = |x: f64| (x * 1e9).round() / 1e9;
+        match self {
+            Self::Length | Self::Point | Self::Offset if value != 0.0 && value.abs() < 0.01 => {
+                format!("{}mm", rounded(value * 1e3))
+            }
+            Self::Length | Self::Point | Self::Offset if value != 0.0 && value.abs() < 1.0 => {
+                format!("{}cm", rounded(value * 1e2))
+            }
+            Self::Length | Self::Point | Self::Offset => format!("{value}m"),
+            Self::Angle => format!("{}deg", rounded(value.to_degrees())),
+            Self::Time => format!("{value}s"),
+            Self::Power => format!("{value}W"),
+            Self::Temperature => format!("{value}K"),
+            Self::Pixels => format!("{value}px"),
+            Self::Exposure => format!("{value}EV"),
+            Self::FNumber => format!("f/{value}"),
+            _ => format!("{}", rounded(value)),
+        }
+    }
+}
+
+/// Words in backticks: "`a`, `b` or `c`".
+pub fn quoted(words: &[&str]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => format!("`{one}`"),
+        [rest @ .., last] => {
+            let rest: Vec<String> = rest.iter().map(|word| format!("`{word}`")).collect();
+            format!("{} or `{last}`", rest.join(", "))
+        }
+    }
+}

@@ -1,0 +1,318 @@
+//! Sequences: the entries of files and blocks, the elements between parentheses and brackets, and what separates them.
+
+use super::ast::{Allow, Block, Entry, ExprKind, Field, Item, ItemKind};
+use super::error::SyntaxError;
+use super::grammar::{Parts, Rule};
+use super::lower::{Lower, is_reserved, item, poison};
+use crate::diag::did_you_mean;
+use pest::iterators::Pair;
+
+/// What has been read of a sequence of entries.
+#[derive(Default)]
+struct Sequence {
+    entries: Vec<Entry>,
+    poisoned: bool,
+    /// The `allow`s that wait for their item, and where the first begins.
+    allows: Vec<Allow>,
+    allows_start: Option<usize>,
+    /// What the last separator or entry was, as far as the next entry asks.
+    last: Last,
+}
+
+/// What stands before an entry.
+#[derive(Clone, Copy, PartialEq, Eq, Default)]
+enum Last {
+    /// Nothing, a comma, or an entry after which anything may follow.
+    #[default]
+    Separated,
+    /// An entry that ends with its block: an item may follow it on its line, a field may not.
+    Block,
+    /// An entry that wants a comma or a line end after it.
+    Open,
+    /// A name that stands alone: a field without its colon, or a word that begins no item.
+    Word,
+    /// A mistake: what follows on its line is likely part of it.
+    Mistake,
+}
+
+impl Lower<'_> {
+    /// `block = { "{" ~ entry* ~ "}" }`
+    pub(super) fn block(&mut self, pair: Pair<'_, Rule>) -> Block {
+        let span = self.text.span_of(&pair);
+        let sequence = self.nested(1, span, |lower| lower.entries(Parts::of(pair), true));
+        match sequence {
+            Some((entries, poisoned)) => Block { entries, span, poisoned },
+            None => Block { entries: Vec::new(), span, poisoned: true },
+        }
+    }
+
+    /// The entries of a file or block, and whether some could not be read.
+    pub(super) fn entries(&mut self, parts: Parts<'_>, in_block: bool) -> (Vec<Entry>, bool) {
+        let mut sequence = Sequence::default();
+        for part in parts.rest() {
+            match part.as_rule() {
+                Rule::comma => self.entry_comma(&part, &mut sequence),
+                Rule::allow => self.allow(part, &mut sequence),
+                Rule::closer | Rule::broken => sequence.poisoned = true,
+                _ => self.entry(part, in_block, &mut sequence),
+            }
+        }
+        if let Some(allow) = sequence.allows.first() {
+            self.note(SyntaxError::BadAllow { at: allow.code.span, problem: "no item follows" });
+        }
+        (sequence.entries, sequence.poisoned)
+    }
+
+    /// `,` or `;` between entries.
+    fn entry_comma(&mut self, pair: &Pair<'_, Rule>, sequence: &mut Sequence) {
+        let at = self.text.span_of(pair);
+        if pair.as_str() == ";" {
+            self.semicolons.push(at);
+        } else if sequence.last == Last::Separated {
+            self.note(SyntaxError::ExtraComma { at });
+        }
+        sequence.last = Last::Separated;
+    }
+
+    /// One entry, the comma before it, and what a mistake in it means for the next.
+    fn entry(&mut self, pair: Pair<'_, Rule>, in_block: bool, sequence: &mut Sequence) {
+        let (start, rule) = (pair.as_span().start(), pair.as_rule());
+        let follows_on_line = !self.text.begins_line(start);
+        if follows_on_line && self.is_part_of_mistake(rule, sequence) {
+            return;
+        }
+        if follows_on_line && self.may_begin_entry(rule, start) {
+            self.check_separation(&pair, in_block, sequence);
+        }
+        let is_in_mistake = follows_on_line && sequence.last == Last::Mistake;
+        let before = self.errors.len();
+        match rule {
+            Rule::field | Rule::bare_field => self.field_entry(pair, in_block, sequence),
+            _ => {
+                let mut item = self.item(pair);
+                let start = sequence.allows_start.take().unwrap_or(start);
+                item.doc = self.text.doc_above(start);
+                item.span = self.text.span(start, start).to(item.span);
+                sequence.push(item);
+            }
+        }
+        if is_in_mistake || self.errors.len() > before {
+            sequence.last = Last::Mistake;
+        }
+    }
+
+    /// Whether what stands at `start` is an entry of its own, and not the rest of the one before.
+    fn may_begin_entry(&self, rule: Rule, start: usize) -> bool {
+        let begins = |c: char| c.is_ascii_alphanumeric() || "_\"#([{".contains(c);
+        rule != Rule::stray && self.text.text[start..].starts_with(begins)
+    }
+
+    /// What cannot be read after a mistake on its line is part of it.
+    fn is_part_of_mistake(&self, rule: Rule, sequence: &mut Sequence) -> bool {
+        let part = sequence.last == Last::Mistake && matches!(rule, Rule::stray | Rule::expr);
+        sequence.poisoned |= part;
+        part
+    }
+
+    /// Reports a missing comma before an entry that shares its line with the one before.
+    fn check_separation(&mut self, next: &Pair<'_, Rule>, in_block: bool, sequence: &mut Sequence) {
+        let start = next.as_span().start();
+        let is_field = matches!(next.as_rule(), Rule::field | Rule::bare_field);
+        match sequence.last {
+            Last::Word => self.after_word(next, in_block, sequence),
+            Last::Open | Last::Block if sequence.last == Last::Open || is_field => {
+                let what = if is_field { "fields" } else { "items" };
+                let hint = "write `,` between them, or put each on a line of its own";
+                let at = self.text.after_token(start);
+                self.note(SyntaxError::MissingComma { what, hint, at, next: self.text.first_char(start) });
+            }
+            _ => {}
+        }
+    }
+
+    /// A name alone with something after it on its line: a field without its colon, or a word that begins no item.
+    fn after_word(&mut self, next: &Pair<'_, Rule>, in_block: bool, sequence: &mut Sequence) {
+        let Some(Entry::Item(Item { kind, span: at, .. })) = sequence.entries.last_mut() else { return };
+        let ItemKind::Value(value) = kind else { return };
+        let ExprKind::Name(word) = &value.kind else { return };
+        let (word, at) = (word.clone(), *at);
+        *kind = ItemKind::Poison;
+        sequence.poisoned = true;
+        sequence.last = Last::Mistake;
+        let hint = did_you_mean(&word, ITEM_WORDS);
+        let example =
+            "an item is a definition, as in `let a = 1m`, or a block with its name, as in `sphere { .. }`";
+        let is_value = matches!(next.as_rule(), Rule::expr | Rule::object | Rule::choice);
+        if in_block && is_value && hint.is_none() {
+            let sign = ":";
+            let (place, hint) = (format!("after `{word}`"), format!("write `{word}: ..`"));
+            self.note(SyntaxError::MissingSign { sign, place, hint, at: at.after() });
+        } else {
+            self.note(SyntaxError::UnknownItem {
+                word,
+                at,
+                hint: hint.unwrap_or_else(|| example.to_owned()),
+            });
+        }
+    }
+
+    /// `field = { ident ~ (":" | wrong_equals) ~ given }`, `bare_field = { bare_name ~ missing_colon ~ value }`
+    fn field_entry(&mut self, pair: Pair<'_, Rule>, in_block: bool, sequence: &mut Sequence) {
+        let mut parts = Parts::of(pair);
+        let Some(name) = parts.next().map(|name| self.word(&name)) else { return };
+        if is_reserved(&name) && parts.peek_rule() == Some(Rule::wrong_equals) {
+            self.note(SyntaxError::MissingName {
+                what: "this definition",
+                example: "goblet",
+                at: name.span.after(),
+            });
+            sequence.push(item(ItemKind::Poison, name.span));
+            return;
+        }
+        // What stands outside every block is no field, so its sign is not worth a word.
+        if !in_block {
+            if sequence.last != Last::Mistake {
+                self.note(SyntaxError::StrayField { name: name.value.clone(), at: name.span });
+            }
+            let value = poison(name.span);
+            sequence.push(item(ItemKind::Let { value, name: name.clone() }, name.span));
+            return;
+        }
+        let example = format!("write `{}: ..`", name.value);
+        if let Some(sign) = parts.take(Rule::wrong_equals) {
+            let (written, wanted) = ("=".to_owned(), ":");
+            self.note(SyntaxError::WrongSign {
+                written,
+                wanted,
+                hint: example.clone(),
+                at: self.text.span_of(&sign),
+            });
+        } else if parts.skip(Rule::missing_colon) {
+            let (sign, place) = (":", format!("after `{}`", name.value));
+            self.note(SyntaxError::MissingSign { sign, place, hint: example.clone(), at: name.span.after() });
+        }
+        let value = self.given_or_poison(&mut parts, &format!("the value of `{}`", name.value), &example);
+        self.refuse_allows(sequence);
+        sequence.entries.push(Entry::Field(Field { name, value }));
+        sequence.last = Last::Open;
+    }
+
+    /// `allow` is for items.
+    fn refuse_allows(&mut self, sequence: &mut Sequence) {
+        sequence.allows_start = None;
+        if let Some(allow) = sequence.allows.drain(..).next() {
+            self.note(SyntaxError::BadAllow { at: allow.code.span, problem: "a field follows, not an item" });
+        }
+    }
+
+    /// `allow = { kw_allow ~ "(" ~ (code | string | comma | junk)* ~ ")" }`
+    fn allow(&mut self, pair: Pair<'_, Rule>, sequence: &mut Sequence) {
+        let (start, at) = (pair.as_span().start(), self.text.span_of(&pair));
+        let mut parts = Parts::of(pair);
+        let code = parts.take(Rule::code).map(|code| self.word(&code));
+        parts.skip(Rule::comma);
+        let reason = parts.take(Rule::string).map(|reason| self.string(&reason));
+        parts.skip(Rule::comma);
+        match (code, reason, parts.next()) {
+            (Some(code), Some(reason), None) => sequence.allows.push(Allow { code, reason }),
+            (None, ..) => self.note(SyntaxError::BadAllow { at, problem: "no code" }),
+            (_, None, None) => self.note(SyntaxError::BadAllow { at, problem: "no reason" }),
+            _ => self.note(SyntaxError::BadAllow { at, problem: "more than these two" }),
+        }
+        sequence.allows_start.get_or_insert(start);
+    }
+
+    /// What stands between parentheses or brackets, with a comma between each two.
+    pub(super) fn elements<T>(
+        &mut self,
+        pair: Pair<'_, Rule>,
+        what: &'static str,
+        mut lower: impl FnMut(&mut Self, Pair<'_, Rule>) -> Option<T>,
+    ) -> Vec<T> {
+        let mut elements = Vec::new();
+        let mut last = Last::Separated;
+        for part in Parts::of(pair).rest() {
+            let (start, before) = (part.as_span().start(), self.errors.len());
+            if part.as_rule() == Rule::comma {
+                last = self.element_comma(&part, last);
+                continue;
+            }
+            if last == Last::Open
+                && self.may_begin_entry(part.as_rule(), start)
+                && part.as_rule() != Rule::broken
+            {
+                let (at, next) = (self.text.after_token(start), self.text.first_char(start));
+                let hint = "write `,` between them";
+                self.note(SyntaxError::MissingComma { what, hint, at, next });
+            }
+            match part.as_rule() {
+                Rule::junk => self.unreadable(&part),
+                Rule::broken | Rule::closer => {}
+                _ => elements.extend(lower(self, part)),
+            }
+            // Up to the next comma all belongs to the first mistake.
+            if last == Last::Mistake {
+                self.errors.truncate(before);
+            } else if self.errors.len() > before {
+                last = Last::Mistake;
+            } else {
+                last = Last::Open;
+            }
+        }
+        elements
+    }
+
+    /// `,` or `;` between elements.
+    fn element_comma(&mut self, pair: &Pair<'_, Rule>, last: Last) -> Last {
+        let at = self.text.span_of(pair);
+        if pair.as_str() == ";" {
+            let (written, hint) = (";".to_owned(), "elements are separated by commas".to_owned());
+            self.note(SyntaxError::WrongSign { written, wanted: ",", hint, at });
+        } else if last == Last::Separated {
+            self.note(SyntaxError::ExtraComma { at });
+        }
+        Last::Separated
+    }
+}
+
+impl Sequence {
+    /// Adds an item with the `allow`s that wait for it.
+    fn push(&mut self, mut item: Item) {
+        item.allows = std::mem::take(&mut self.allows);
+        self.poisoned |= matches!(item.kind, ItemKind::Poison);
+        self.last = match &item.kind {
+            ItemKind::Value(value) => match value.kind {
+                ExprKind::Name(_) => Last::Word,
+                ExprKind::Block(_) => Last::Block,
+                _ => Last::Open,
+            },
+            ItemKind::Object(_)
+            | ItemKind::For { .. }
+            | ItemKind::If { .. }
+            | ItemKind::Fn(_)
+            | ItemKind::Units(_) => Last::Block,
+            ItemKind::Poison => Last::Mistake,
+            _ => Last::Open,
+        };
+        self.entries.push(Entry::Item(item));
+    }
+}
+
+/// The words that begin items, for those who nearly wrote one.
+const ITEM_WORDS: [&str; 15] = [
+    "allow",
+    "camera",
+    "environment",
+    "fn",
+    "for",
+    "group",
+    "if",
+    "import",
+    "include",
+    "let",
+    "light",
+    "param",
+    "place",
+    "render",
+    "units",
+];

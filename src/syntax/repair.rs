@@ -1,0 +1,108 @@
+//! The text as the grammar reads it: comments blanked, brackets and quotes in pairs.
+
+use super::balance::{Repair, balance, too_deep};
+use super::error::SyntaxError;
+use super::lower::MAX_DEPTH;
+use super::scan::{Scan, scan};
+use super::text::Text;
+use crate::source::Span;
+use std::ops::Range;
+
+/// A text made readable, and what was wrong with it.
+pub(super) struct Repaired {
+    /// What the grammar reads.
+    pub text: String,
+    /// Where bytes were put in, in order, as offsets into `text`.
+    pub inserted: Vec<usize>,
+    /// What was wrong.
+    pub errors: Vec<SyntaxError>,
+    /// The lines that were mended by guessing: what the grammar finds there follows from the mistake.
+    pub guesses: Vec<Range<u32>>,
+}
+
+/// Makes a text readable; `base` is its offset among the sources. `Err` when it is nested too deeply to be read at all.
+pub(super) fn repair(text: &str, base: u32) -> Result<Repaired, SyntaxError> {
+    let scan = scan(text);
+    let span = |start: usize, end: usize| Span::new(base + start as u32, base + end as u32);
+    if let Some(offset) = too_deep(&scan.marks, MAX_DEPTH) {
+        return Err(SyntaxError::TooDeep { limit: MAX_DEPTH, at: span(offset, offset + 1) });
+    }
+    let repairs = balance(&scan.text, &scan.marks);
+    let mut errors: Vec<SyntaxError> = scan.open_quotes.iter().map(|quote| quote.report(span)).collect();
+    errors.extend(scan.stray_ends.iter().map(|&at| SyntaxError::StrayCommentEnd { at: span(at, at + 2) }));
+    match scan.open_comment {
+        // What the comment swallows is not missing.
+        Some(start) => errors.push(SyntaxError::UnclosedComment { at: span(start, start + 2) }),
+        None => errors.extend(repairs.iter().map(|repair| repair.report(text, span))),
+    }
+    let line_around = |offset: usize| {
+        let start = text[..offset].rfind('\n').map_or(0, |end| end + 1);
+        let end = text[offset..].find('\n').map_or(text.len(), |length| offset + length);
+        base + start as u32..base + end as u32
+    };
+    let guesses = scan.open_quotes.iter().map(|quote| line_around(quote.open)).collect();
+    let (text, inserted) = apply(scan, &repairs);
+    Ok(Repaired { text, inserted, errors, guesses })
+}
+
+impl Repair {
+    /// The report of what this mends.
+    fn report(self, text: &str, span: impl Fn(usize, usize) -> Span) -> SyntaxError {
+        let byte = |at: usize| char::from(text.as_bytes()[at]);
+        match self {
+            Self::Insert { at, open, close } => SyntaxError::UnclosedBracket {
+                open: byte(open),
+                close: close.into(),
+                at: span(at, at),
+                opened: span(open, open + 1),
+            },
+            Self::Remove { at } => {
+                let close = byte(at);
+                let open = match close {
+                    ')' => '(',
+                    ']' => '[',
+                    _ => '{',
+                };
+                SyntaxError::StrayBracket { open, close, at: span(at, at + 1) }
+            }
+            Self::Replace { at, open, close } => SyntaxError::MismatchedBracket {
+                open: byte(open),
+                close: byte(at),
+                wanted: close.into(),
+                at: span(at, at + 1),
+                opened: span(open, open + 1),
+            },
+        }
+    }
+}
+
+/// The text with every repair done, and where bytes were put in.
+fn apply(scan: Scan, repairs: &[Repair]) -> (String, Vec<usize>) {
+    let mut bytes = scan.text;
+    let mut inserts: Vec<(usize, u8)> = scan.open_quotes.iter().map(|quote| (quote.close, b'"')).collect();
+    for &repair in repairs {
+        match repair {
+            Repair::Insert { at, close, .. } => inserts.push((at, close)),
+            Repair::Remove { at } => bytes[at] = b' ',
+            Repair::Replace { at, close, .. } => bytes[at] = close,
+        }
+    }
+    // A stable sort: brackets put in at one place stay in the order in which they close.
+    inserts.sort_by_key(|&(at, _)| at);
+    let (mut text, mut inserted, mut done) = (Vec::with_capacity(bytes.len() + inserts.len()), Vec::new(), 0);
+    for (at, byte) in inserts {
+        text.extend_from_slice(&bytes[done..at]);
+        inserted.push(text.len());
+        text.push(byte);
+        done = at;
+    }
+    text.extend_from_slice(&bytes[done..]);
+    (String::from_utf8(text).expect("only whole characters are blanked, only ASCII is put in"), inserted)
+}
+
+impl Repaired {
+    /// The repaired text with the original beside it.
+    pub(super) fn as_text<'a>(&'a self, original: &'a str, base: u32) -> Text<'a> {
+        Text { text: &self.text, original, inserted: &self.inserted, base }
+    }
+}
