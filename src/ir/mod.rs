@@ -5,6 +5,7 @@
 
 mod arena;
 pub mod camera;
+pub mod dump;
 pub mod light;
 pub mod material;
 pub mod shape;
