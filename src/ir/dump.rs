@@ -7,7 +7,7 @@ use super::{
     Brightness, Camera, Curve, Exposure, Focus, Handle, ImageUse, Input, Lens, Light, LightKind, Material,
     MaterialKind, MetalColor, Object, Projection, RevolveMethod, Scene, ShapeKind, TextureKind,
 };
-use crate::math::{DVec2, DVec3, Rgb};
+use crate::math::{DAffine3, DVec2, DVec3, Rgb};
 use std::fmt::Write;
 
 /// The whole scene as text.
@@ -186,8 +186,8 @@ fn dump_object(out: &mut String, scene: &Scene, object: &Object) {
     let names: String =
         object.names.iter().map(|&id| format!(" `{}`", scene.names[id as usize].name.value)).collect();
     line(out, &format!("object shape {:?}{material}{names}", object.shape));
-    if !object.transforms.is_empty() {
-        let m = object.world_from_object;
+    let m = object.world_from_object;
+    if m != DAffine3::IDENTITY {
         let columns = [m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis, m.translation].map(point);
         line(out, &format!("    world {}", columns.join(" ")));
     }
