@@ -126,7 +126,7 @@ pub enum Error {
         #[label("defined here")]
         defined: Span,
     },
-    #[error("`{name}` is defined by itself")]
+    #[error("`{name}` needs itself")]
     #[diagnostic(code(snell::resolve::cycle), help("one of these has to be said without the others"))]
     Cycle {
         name: String,

@@ -182,12 +182,14 @@ impl<'a> Resolver<'a> {
         let id = match instance {
             Some((_, definition)) => self.name_id(&definition),
             None => match self.eval(target, env) {
-                Value::Object(node) if let Some(id) = node.name() => id,
                 Value::Poison => return Value::Poison,
-                other => {
-                    let help = "name it with `let`, or with `place .. as NAME`";
-                    return self.wrong_type("the name of an object", &other.noun(), target.span, help);
-                }
+                value => match named(&value) {
+                    Some(id) => id,
+                    None => {
+                        let help = "name it with `let`, or with `place .. as NAME`";
+                        return self.wrong_type("the name of an object", &value.noun(), target.span, help);
+                    }
+                },
             },
         };
         Value::Focus(Rc::new(ir::Focus::On(id, self.text(target.span))))
@@ -237,9 +239,6 @@ impl<'a> Resolver<'a> {
     ) -> bool {
         let over = self.eval(range, env);
         let mut one = |this: &mut Self, value: Value<'a>| {
-            if !this.spend_turn(name.span) {
-                return false;
-            }
             let scope = Scope::new(Some(Rc::clone(env)));
             let number = match value {
                 Value::Number(quantity) => Some(quantity),
@@ -253,10 +252,16 @@ impl<'a> Resolver<'a> {
         };
         match over {
             Value::Range(start, end, inclusive) => {
-                let Some(turns) = self.turns(start, end, inclusive, range.span) else { return false };
+                let turns = self.turns(start, end, inclusive, range.span);
+                let Some(turns) = turns.filter(|&turns| self.spend_turns(turns, range.span)) else {
+                    return false;
+                };
                 (0..turns).all(|i| one(self, Value::number(start.value + i as f64)))
             }
-            Value::List(parts) => parts.iter().all(|part| one(self, part.clone())),
+            Value::List(parts) => {
+                self.spend_turns(parts.len() as u64, range.span)
+                    && parts.iter().all(|part| one(self, part.clone()))
+            }
             Value::Poison => {
                 one(self, Value::Poison);
                 false
@@ -330,6 +335,14 @@ impl<'a> Resolver<'a> {
                 Value::Poison
             }
         }
+    }
+}
+
+/// The id of the name that an object has.
+fn named(value: &Value) -> Option<u32> {
+    match value {
+        Value::Object(node) => node.name(),
+        _ => None,
     }
 }
 

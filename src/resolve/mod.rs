@@ -21,6 +21,8 @@ mod noise;
 mod operator;
 mod param;
 mod scope;
+#[cfg(test)]
+mod tests;
 mod value;
 
 use crate::diag::{Problems, Trail};
