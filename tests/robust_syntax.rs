@@ -1,8 +1,9 @@
 //! Mangled scenes end in a report, never in a panic, and every label of it lies inside its file.
 
 use snell::diag::{Problems, Style};
+use snell::format::format;
 use snell::source::{Memory, SourceMap, Span};
-use snell::syntax;
+use snell::syntax::{self, ast::Program};
 use std::path::Path;
 
 /// How many mangled texts are read.
@@ -125,13 +126,38 @@ fn texts() -> Vec<String> {
     scenes.map(|path| std::fs::read_to_string(path).expect("scenes are texts")).collect()
 }
 
+/// The tree of a canonical text, and what formatting makes of it.
+fn reformatted(text: &str) -> (String, Option<String>) {
+    let mut sources = SourceMap::default();
+    let id =
+        sources.add("main.snell".to_owned(), "main.snell".into(), text.into()).expect("the text is small");
+    let file = syntax::parse_file(&sources, id, &mut Problems::default());
+    let tree = syntax::dump::dump(&Program { files: vec![file] });
+    (tree, format(&sources, id, &mut Problems::default()))
+}
+
+/// A tree without the numbers of the files it names, which are read or not.
+fn strip_files(tree: &str) -> String {
+    tree.replace("Some(FileIndex(1))", "None")
+}
+
 /// Reads a text and asserts that its report can be shown.
 fn check(text: &str, is_rendered: bool) {
     let files = Memory::default().with("a.snell", "snell 1\nlet b = 3 *\n");
     let (mut sources, mut problems) = (SourceMap::default(), Problems::default());
     let main =
         sources.add("main.snell".to_owned(), "main.snell".into(), text.into()).expect("the text is small");
-    syntax::parse(&mut sources, &files, main, &mut problems);
+    let program = syntax::parse(&mut sources, &files, main, &mut problems);
+    if let Some(canonical) = format(&sources, main, &mut Problems::default()) {
+        let (again, canonical_again) = reformatted(&canonical);
+        assert_eq!(canonical_again.as_deref(), Some(canonical.as_str()), "of {text:?}");
+        let own = Program { files: program.files[..1].to_vec() };
+        assert_eq!(
+            strip_files(&syntax::dump::dump(&own)),
+            strip_files(&again),
+            "of {text:?}, as {canonical:?}"
+        );
+    }
     for label in problems.list().iter().flat_map(|problem| problem.error.labels().into_iter().flatten()) {
         let span = Span::new(label.offset() as u32, (label.offset() + label.len()) as u32);
         let file = sources.find(span.start).map(|id| sources.file(id).span());

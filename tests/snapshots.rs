@@ -38,11 +38,13 @@ fn parse_file(path: &Path) -> (Program, Report) {
 
 /// Compares `said` with the file at `path`, or writes it there; what differs is added to `differences`.
 fn compare(path: &Path, said: &str, differences: &mut String) {
-    if std::env::var_os("UPDATE").is_some() {
-        return std::fs::write(path, said).expect("an expectation can be written");
-    }
     let expected = std::fs::read_to_string(path).unwrap_or_default();
-    if expected != said {
+    if expected == said {
+        return;
+    }
+    if std::env::var_os("UPDATE").is_some() {
+        std::fs::write(path, said).expect("an expectation can be written");
+    } else {
         let _ = writeln!(differences, "── {}\nexpected:\n{expected}\nsaid:\n{said}", path.display());
     }
 }

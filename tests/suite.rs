@@ -2,5 +2,8 @@
 
 mod laws;
 mod laws_geometry;
+mod laws_photon;
 mod layers;
 mod robust;
+mod robust_syntax;
+mod snapshots;

@@ -43,7 +43,7 @@ impl Check<'_> {
             });
         }
         if let Some(index) = crossing(&points) {
-            let near = index * curve.points.len() / points.len();
+            let near = index * curve.points.len() / points.len() + 1;
             self.report(CheckError::CrossingOutline { used: curve.span, near });
         }
     }

@@ -7,17 +7,12 @@ use crate::ir::{Brightness, Light, LightKind, MaterialKind, Method};
 use crate::math::Rgb;
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
-use rustc_hash::FxHashSet;
 
 impl Check<'_> {
     /// Checks every light, and that there is one.
     pub(super) fn lights(&mut self) {
-        let mut seen = FxHashSet::default();
         for light in &self.scene.lights {
-            // A light that a loop placed a hundred times is wrong once.
-            if seen.insert(light.span) {
-                self.light(light);
-            }
+            self.light(light);
         }
         self.environment();
         self.any_light();

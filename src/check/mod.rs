@@ -18,6 +18,8 @@ use crate::schema::Type;
 use crate::source::{Span, Spanned};
 pub use camera::camera;
 pub use error::CheckError;
+use miette::Diagnostic;
+use rustc_hash::FxHashSet;
 use std::ops::Deref;
 
 /// A scene that was checked. Only [`check`] makes one; it makes sense when no error was noted.
@@ -43,7 +45,7 @@ pub fn check(scene: Scene, problems: &mut Problems) -> Option<Checked> {
     }
     // What is missing may be what could not be resolved: then it is not worth a report of its own.
     let whole = !problems.has_errors();
-    let mut check = Check { scene: &scene, problems, whole };
+    let mut check = Check { scene: &scene, problems, whole, reported: FxHashSet::default() };
     check.shapes();
     check.transforms();
     check.materials();
@@ -59,11 +61,17 @@ struct Check<'a> {
     problems: &'a mut Problems,
     /// Whether everything that was written could be resolved.
     whole: bool,
+    /// Reports that were made, by code and place: what a loop or a function made many times is wrong once.
+    reported: FxHashSet<(String, usize)>,
 }
 
 impl Check<'_> {
     fn report(&mut self, error: CheckError) {
-        self.problems.push(error);
+        let code = error.code().map(|code| code.to_string()).unwrap_or_default();
+        let place = error.labels().and_then(|mut labels| labels.next()).map_or(0, |label| label.offset());
+        if self.reported.insert((code, place)) {
+            self.problems.push(error);
+        }
     }
 
     /// Notes a size that is not greater than 0.

@@ -2,31 +2,16 @@
 
 use super::Check;
 use super::error::CheckError;
-use crate::ir::Object;
-use crate::math::DAffine3;
+use crate::ir::{Object, is_singular};
 use crate::source::Span;
-use rustc_hash::FxHashSet;
 
 impl Check<'_> {
-    /// Reports singular transforms, each factor that is to blame once.
+    /// Reports singular transforms, by the factor that is to blame.
     pub(super) fn transforms(&mut self) {
-        let mut blamed: FxHashSet<Span> = FxHashSet::default();
         for object in self.scene.objects.iter().filter(|object| is_singular(&object.world_from_object)) {
-            let factor = blame(object);
-            if blamed.insert(factor) {
-                self.report(CheckError::SingularTransform { factor, object: object.span });
-            }
+            self.report(CheckError::SingularTransform { factor: blame(object), object: object.span });
         }
     }
-}
-
-/// Whether the determinant vanishes beside the product of the columns' lengths.
-fn is_singular(transform: &DAffine3) -> bool {
-    /// Below this the volume is rounding error (f64 has 2⁻⁵³; a few factors lose a few digits).
-    const VANISHING: f64 = 1e-12;
-    let m = transform.matrix3;
-    let lengths = m.x_axis.length() * m.y_axis.length() * m.z_axis.length();
-    m.determinant().abs() <= VANISHING * lengths
 }
 
 /// The first factor that is singular alone, or else the last one.
@@ -38,7 +23,7 @@ fn blame(object: &Object) -> Span {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::DVec3;
+    use crate::math::{DAffine3, DVec3};
 
     #[test]
     fn only_vanishing_volume_is_singular() {

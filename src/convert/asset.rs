@@ -26,7 +26,7 @@ pub enum Search {
     },
     /// One file of this name lies elsewhere.
     Elsewhere {
-        /// Where.
+        /// Where, as seen from the scene's folder.
         path: String,
         /// Its first bytes.
         head: Vec<u8>,
@@ -62,6 +62,14 @@ impl DiskFinder {
             let name = if up == 0 { ".".to_string() } else { vec![".."; up].join("/") };
             (name, folder.to_path_buf())
         })
+    }
+
+    /// A path as seen from the scene's folder, if it lies there or in the folder above.
+    fn seen_from_scene(&self, file: &Path) -> String {
+        let above =
+            || file.strip_prefix(self.scene_folder.parent()?).ok().map(|rest| Path::new("..").join(rest));
+        let seen = file.strip_prefix(&self.scene_folder).ok().map(Path::to_path_buf).or_else(above);
+        seen.unwrap_or_else(|| file.to_path_buf()).display().to_string().replace('\\', "/")
     }
 
     /// The only file with this bare name in or below the folder above the scene, if there is exactly one.
@@ -102,7 +110,7 @@ impl AssetFinder for DiskFinder {
         match self.by_bare_name(path) {
             Some(file) => {
                 let head = head(&file).unwrap_or_default();
-                Search::Elsewhere { path: file.display().to_string(), head }
+                Search::Elsewhere { path: self.seen_from_scene(&file), head }
             }
             None => Search::Missing { tried },
         }
@@ -151,7 +159,9 @@ mod tests {
         let finder = DiskFinder::new(&project.path().join("scenes/s.txt"), Vec::new());
         let head = b"v 0 0 0".to_vec();
         assert_eq!(finder.find("mesh/a.obj"), Search::Found { root: "..".into(), head });
-        assert!(matches!(finder.find("mesh/b.obj"), Search::Elsewhere { .. }));
+        assert!(
+            matches!(finder.find("mesh/b.obj"), Search::Elsewhere { path, .. } if path == "../other/b.obj")
+        );
         assert!(matches!(finder.find("mesh/c.obj"), Search::Missing { tried } if tried.len() >= 2));
     }
 }

@@ -70,6 +70,12 @@ impl Problems {
         self.list.push(problem);
     }
 
+    /// Adds what was noted elsewhere.
+    pub fn append(&mut self, other: Self) {
+        self.error_count += other.error_count;
+        self.list.extend(other.list);
+    }
+
     /// Whether anything is wrong, not merely suspicious.
     pub fn has_errors(&self) -> bool {
         self.error_count > 0

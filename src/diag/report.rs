@@ -111,3 +111,71 @@ impl Severity {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use miette::Diagnostic;
+    use thiserror::Error;
+
+    #[derive(Error, Diagnostic, Debug)]
+    #[error("something is odd")]
+    #[diagnostic(code(snell::test::odd), severity(Warning))]
+    struct Odd {
+        #[label("here")]
+        at: Span,
+    }
+
+    #[derive(Error, Diagnostic, Debug)]
+    #[error("something is wrong")]
+    #[diagnostic(code(snell::test::wrong))]
+    struct Wrong {
+        #[label("here")]
+        at: Span,
+    }
+
+    fn sources(text: &str) -> SourceMap {
+        let mut sources = SourceMap::default();
+        sources.add("main.snell".to_owned(), "main.snell".into(), text.into()).expect("the text is small");
+        sources
+    }
+
+    #[test]
+    fn a_place_far_to_the_right_is_drawn_with_what_surrounds_it() {
+        let text = format!("first\n{}@{}\nlast", "é".repeat(100_000), "x".repeat(100_000));
+        let at = text.find('@').expect("it was put there") as u32;
+        let mut problems = Problems::default();
+        problems.push(Wrong { at: Span::new(at, at + 1) });
+        let report = problems.into_report(&sources(&text));
+        let human = report.render_human(&Style::default());
+        assert!(human.contains("[main.snell:2:100001]"), "{human}");
+        assert!(human.contains("é@x") && human.contains("here") && human.len() < 1000, "{human}");
+        assert!(
+            report
+                .render_short()
+                .starts_with("main.snell:2:100001: error: something is wrong [snell::test::wrong]")
+        );
+    }
+
+    #[test]
+    fn a_hundred_are_shown_and_the_others_counted() {
+        let mut problems = Problems::default();
+        (0..130).for_each(|_| problems.push(Wrong { at: Span::new(0, 1) }));
+        let short = problems.into_report(&sources("x")).render_short();
+        assert_eq!(short.lines().count(), 102);
+        assert!(short.ends_with("and 30 more\n130 errors\n"), "{short}");
+    }
+
+    #[test]
+    fn only_warnings_in_the_place_meant_are_silenced() {
+        let mut problems = Problems::default();
+        [2, 7].into_iter().for_each(|start| problems.push(Odd { at: Span::new(start, start + 1) }));
+        problems.push(Wrong { at: Span::new(2, 3) });
+        assert_eq!(problems.silence("wrong", Span::new(0, 9)), 0);
+        assert_eq!(problems.silence("odd", Span::new(0, 5)), 1);
+        assert_eq!(problems.silence("snell::test::odd", Span::new(0, 5)), 0);
+        let report = problems.into_report(&sources("0123456789"));
+        assert_eq!((report.error_count(), report.warning_count()), (1, 1));
+        assert!(report.render_short().ends_with("1 error, 1 warning\n"));
+    }
+}

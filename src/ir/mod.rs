@@ -5,6 +5,7 @@
 
 mod arena;
 pub mod camera;
+pub mod dump;
 pub mod light;
 pub mod material;
 pub mod shape;
@@ -55,7 +56,8 @@ pub struct Object {
     pub material: Option<Handle<Material>>,
     /// World space from object space: all transforms around it, composed.
     pub world_from_object: DAffine3,
-    /// Where each transform around it was written, the innermost first; empty for the identity.
+    /// The factors of `world_from_object`, the innermost first. Kept only where they flatten the object
+    /// ([`is_singular`]), to say which of them does; empty otherwise.
     pub transforms: Vec<TransformStep>,
     /// The place that put it into the scene: its block, or the innermost `place`.
     pub span: Span,
@@ -74,6 +76,15 @@ pub struct Named {
     pub count: u32,
     /// Who put it there, the first two of them.
     pub placed: Vec<Span>,
+}
+
+/// Whether a transform flattens what it moves: its determinant vanishes beside the product of the columns' lengths.
+pub fn is_singular(transform: &DAffine3) -> bool {
+    /// Below this the volume is rounding error (f64 has 2⁻⁵³; a few factors lose a few digits).
+    const VANISHING: f64 = 1e-12;
+    let m = transform.matrix3;
+    let lengths = m.x_axis.length() * m.y_axis.length() * m.z_axis.length();
+    m.determinant().abs() <= VANISHING * lengths
 }
 
 /// One factor of a transform, for reports about singular ones.

@@ -10,6 +10,7 @@ pub mod film;
 pub mod geometry;
 pub mod integrator;
 pub mod light;
+pub mod media;
 pub mod photon;
 pub mod sampler;
 pub mod shape;

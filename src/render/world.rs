@@ -4,6 +4,7 @@ use super::bsdf::{Bsdf, Material, Materials};
 use super::camera::Camera;
 use super::geometry::{Geometry, Hit, SurfacePoint};
 use super::light::{Environment, Light, Lights, Sky};
+use super::media::Media;
 use super::shape::{Mesh, Solid};
 use super::texture::Texture;
 use crate::math::{Ray, Rgb, Vec3};
@@ -70,6 +71,16 @@ impl World {
     /// How the surface scatters there.
     pub fn bsdf(&self, surface: &SurfacePoint) -> Bsdf {
         self.materials.bsdf(surface)
+    }
+
+    /// How the surface scatters there, seen along `wo` from within `media`.
+    pub fn bsdf_between(&self, surface: &SurfacePoint, wo: Vec3, media: &Media) -> Bsdf {
+        let bsdf = self.materials.bsdf(surface);
+        let from_outside = wo.dot(surface.n) > 0.0;
+        match media.relative_ior(surface.material, from_outside, &self.materials) {
+            Some(ior) => bsdf.with_ior(ior),
+            None => bsdf,
+        }
     }
 
     /// The radiance that the surface emits along `wo`.

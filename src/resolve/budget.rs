@@ -35,9 +35,9 @@ impl<'a> Resolver<'a> {
         self.within(self.budget.objects <= OBJECTS, error)
     }
 
-    /// Notes a turn of a loop. `false`: too many.
-    pub(super) fn spend_turn(&mut self, used: Span) -> bool {
-        self.budget.turns += 1;
+    /// Notes that a loop will take so many turns. `false`: too many, and then it takes none.
+    pub(super) fn spend_turns(&mut self, turns: u64, used: Span) -> bool {
+        self.budget.turns = self.budget.turns.saturating_add(turns);
         let help = "make the range shorter";
         let error = Error::Budget { what: "turns of loops", limit: TURNS, used, help };
         self.within(self.budget.turns <= TURNS, error)

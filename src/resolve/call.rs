@@ -105,7 +105,7 @@ impl<'a> Resolver<'a> {
                 (Some(arg), _) => self.typed(arg, ty, env),
                 (None, Some(default)) => self.default_of(function, default, ty),
                 (None, None) => {
-                    self.missing_argument(function, formal, args.len(), used);
+                    self.missing_argument(function, formal, used);
                     return false;
                 }
             };
@@ -149,11 +149,10 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    fn missing_argument(&mut self, function: &Function<'a>, formal: &Formal, found: usize, used: Span) {
-        let name = &function.definition.name.value;
-        let wanted = format!("a value for `{}`", formal.name.value);
-        let help = format!("write `{}`", usage(function));
-        self.report(Error::ArgumentCount { function: name.clone(), wanted, found, used, help });
+    fn missing_argument(&mut self, function: &Function<'a>, formal: &Formal, used: Span) {
+        let (name, help) = (formal.name.value.clone(), format!("write `{}`", usage(function)));
+        let function = function.definition.name.value.clone();
+        self.report(Error::MissingArgument { function, name, used, help });
     }
 
     /// A default is worked out where the function stands.

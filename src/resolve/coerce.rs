@@ -2,7 +2,6 @@
 
 use super::dimension::{Dimension, Quantity};
 use super::error::Error;
-use super::expr::unknown_name_help;
 use super::fields::EMPTY;
 use super::{Env, Resolver, Value, color};
 use crate::diag::did_you_mean;
@@ -20,8 +19,8 @@ impl<'a> Resolver<'a> {
     pub(super) fn eval_as(&mut self, expr: &'a Expr, ty: Type, env: &Env<'a>) -> Value<'a> {
         match (ty, &expr.kind) {
             (_, ExprKind::Name(name)) if env.find(name).is_none() => self.word_as(name, expr.span, ty, env),
-            (Type::Choice(words), ExprKind::Name(name)) if let Some(word) = find_word(words, name) => {
-                Value::Word(word)
+            (Type::Choice(words), ExprKind::Name(name)) if words.contains(&name.as_str()) => {
+                find_word(words, name).map_or(Value::Poison, Value::Word)
             }
             (Type::Block(kind), ExprKind::Block(body)) => {
                 let block = schema::block(kind).expect("types name declared blocks");
@@ -85,8 +84,9 @@ impl<'a> Resolver<'a> {
         let visible = env.visible();
         let names = visible.iter().map(|definition| definition.name);
         let help = match schema::block(name) {
-            Some(_) => unknown_name_help(name, env),
-            None => did_you_mean(name, names.chain(kinds))
+            Some(_) => self.unknown_name_help(name, env),
+            None => self
+                .propose(name, names.chain(kinds))
                 .or_else(|| Some(format!("define it: `let {name} = diffuse {{ color: #ff8800 }}`"))),
         };
         self.poison(Error::UnknownMaterial { name: name.to_owned(), used, help })
@@ -138,13 +138,15 @@ impl<'a> Resolver<'a> {
                 let point = self.triple_as(value, Type::Length, Type::Point, span);
                 point.triple().map_or(Value::Poison, |p| Value::Focus(ir::Focus::Point(p).into()))
             }
-            (ty, value) if let Some(color) = as_color(&value, ty) => Value::Color(color),
             (Type::LightColor | Type::SkyInput, Value::Number(q))
                 if q.dimension == Dimension::TEMPERATURE =>
             {
                 self.glow(q, span)
             }
-            (ty, value) => self.refuse(&value, ty, span),
+            (ty, value) => match as_color(&value, ty) {
+                Some(color) => Value::Color(color),
+                None => self.refuse(&value, ty, span),
+            },
         }
     }
 

@@ -36,7 +36,7 @@ impl<'a> Resolver<'a> {
             "box" => Value::Filter(Filter::Box(x)),
             "tent" => Value::Filter(Filter::Tent(x)),
             "gaussian" => Value::Filter(Filter::Gaussian(x)),
-            "image" => self.image_file(&first.value, used),
+            "image" => self.image_file(first, used),
             _ => match self.matrix_of(builtin, args, x) {
                 Some(matrix) => Value::Transform([TransformStep { matrix, span: used }].into()),
                 None => Value::Poison,

@@ -126,7 +126,7 @@ pub enum Error {
         #[label("defined here")]
         defined: Span,
     },
-    #[error("`{name}` is defined by itself")]
+    #[error("`{name}` needs itself")]
     #[diagnostic(code(snell::resolve::cycle), help("one of these has to be said without the others"))]
     Cycle {
         name: String,
@@ -298,6 +298,16 @@ pub enum Error {
         function: String,
         wanted: String,
         found: usize,
+        #[label("in this call")]
+        used: Span,
+        #[help]
+        help: String,
+    },
+    #[error("`{function}` needs a value for `{name}`")]
+    #[diagnostic(code(snell::resolve::missing_argument))]
+    MissingArgument {
+        function: String,
+        name: String,
         #[label("in this call")]
         used: Span,
         #[help]

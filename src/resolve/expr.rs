@@ -3,7 +3,7 @@
 use super::builtin;
 use super::dimension::{Dimension, Quantity, UNITS, with_unit};
 use super::error::Error;
-use super::scope::{Kind, Scope};
+use super::scope::{Definition, Kind, Scope};
 use super::{Env, Resolver, Step, Value, color};
 use crate::diag::did_you_mean;
 use crate::ir;
@@ -97,8 +97,20 @@ impl<'a> Resolver<'a> {
         if let Some(color) = color::named(name) {
             return Value::Color(color);
         }
-        let help = unknown_name_help(name, env);
+        let help = self.unknown_name_help(name, env);
         self.poison(Error::UnknownName { name: name.to_owned(), used, help })
+    }
+
+    /// What to say of a name that nothing defines.
+    pub(super) fn unknown_name_help(&mut self, name: &str, env: &Env<'a>) -> Option<String> {
+        if let Some(block) = schema::block(name) {
+            return Some(format!("`{name}` needs its braces, as in `{}`", block.example));
+        }
+        let visible = env.visible();
+        let defined = self.propose(name, visible.iter().map(|definition| definition.name));
+        defined
+            .or_else(|| did_you_mean(name, known_names(&visible)))
+            .or_else(|| Some(format!("define it with `let {name} = ..`, or take it away")))
     }
 
     /// `mat.gold`, `p.x`.
@@ -132,7 +144,7 @@ impl<'a> Resolver<'a> {
             return self.value_of(scope, &definition);
         }
         let names = scope.in_order();
-        let help = did_you_mean(field, names.iter().map(|definition| definition.name));
+        let help = self.propose(field, names.iter().map(|definition| definition.name));
         let owner = format!("`{}`", self.text(module));
         self.unknown_member(&owner, field, help)
     }
@@ -170,12 +182,14 @@ impl<'a> Resolver<'a> {
         let id = match instance {
             Some((_, definition)) => self.name_id(&definition),
             None => match self.eval(target, env) {
-                Value::Object(node) if let Some(id) = node.name() => id,
                 Value::Poison => return Value::Poison,
-                other => {
-                    let help = "name it with `let`, or with `place .. as NAME`";
-                    return self.wrong_type("the name of an object", &other.noun(), target.span, help);
-                }
+                value => match named(&value) {
+                    Some(id) => id,
+                    None => {
+                        let help = "name it with `let`, or with `place .. as NAME`";
+                        return self.wrong_type("the name of an object", &value.noun(), target.span, help);
+                    }
+                },
             },
         };
         Value::Focus(Rc::new(ir::Focus::On(id, self.text(target.span))))
@@ -225,9 +239,6 @@ impl<'a> Resolver<'a> {
     ) -> bool {
         let over = self.eval(range, env);
         let mut one = |this: &mut Self, value: Value<'a>| {
-            if !this.spend_turn(name.span) {
-                return false;
-            }
             let scope = Scope::new(Some(Rc::clone(env)));
             let number = match value {
                 Value::Number(quantity) => Some(quantity),
@@ -241,10 +252,16 @@ impl<'a> Resolver<'a> {
         };
         match over {
             Value::Range(start, end, inclusive) => {
-                let Some(turns) = self.turns(start, end, inclusive, range.span) else { return false };
+                let turns = self.turns(start, end, inclusive, range.span);
+                let Some(turns) = turns.filter(|&turns| self.spend_turns(turns, range.span)) else {
+                    return false;
+                };
                 (0..turns).all(|i| one(self, Value::number(start.value + i as f64)))
             }
-            Value::List(parts) => parts.iter().all(|part| one(self, part.clone())),
+            Value::List(parts) => {
+                self.spend_turns(parts.len() as u64, range.span)
+                    && parts.iter().all(|part| one(self, part.clone()))
+            }
             Value::Poison => {
                 one(self, Value::Poison);
                 false
@@ -321,18 +338,19 @@ impl<'a> Resolver<'a> {
     }
 }
 
-/// What to say of a name that nothing defines.
-pub fn unknown_name_help(name: &str, env: &Env) -> Option<String> {
-    if let Some(block) = schema::block(name) {
-        return Some(format!("`{name}` needs its braces, as in `{}`", block.example));
+/// The id of the name that an object has.
+fn named(value: &Value) -> Option<u32> {
+    match value {
+        Value::Object(node) => node.name(),
+        _ => None,
     }
-    let visible = env.visible();
+}
+
+/// The names that may have been meant where a value is wanted, the scene's own first.
+fn known_names<'n>(visible: &[Rc<Definition<'n>>]) -> Vec<&'n str> {
     let mut known: Vec<&str> = visible.iter().map(|definition| definition.name).collect();
-    let defined = did_you_mean(name, known.iter().copied());
     for name in builtin::names().chain(color::NAMED.iter().map(|(name, _)| *name)) {
         known.push(name);
     }
-    defined
-        .or_else(|| did_you_mean(name, known))
-        .or_else(|| Some(format!("define it with `let {name} = ..`, or take it away")))
+    known
 }

@@ -128,6 +128,7 @@ impl<'a> Resolver<'a> {
 fn unknown_field_help(block: &schema::Block, name: &Name) -> String {
     if let Some(ours) = schema::foreign_field(name).filter(|ours| block.field(ours).is_some()) {
         return match (ours, name.as_str()) {
+            ("transform", "rotation") => "write `transform: rotate_y(..)`".to_owned(),
             ("transform", word) => format!("write `transform: {word}(..)`"),
             _ => format!("it is called `{ours}` here"),
         };

@@ -10,10 +10,23 @@ use crate::syntax::ast::{
 };
 use rustc_hash::FxHashMap;
 
-/// Notes what is wrong with the names of `program`.
-pub fn lint(program: &Program, problems: &mut Problems) {
-    let mut lint =
-        Lint { program, problems, scopes: Vec::new(), main: false, seen: vec![false; program.files.len()] };
+/// A definition that nothing uses.
+pub struct Unused<'a> {
+    kind: &'static str,
+    pub name: &'a str,
+    defined: Span,
+}
+
+impl Unused<'_> {
+    pub fn error(&self) -> Error {
+        Error::Unused { kind: self.kind, name: self.name.to_owned(), defined: self.defined }
+    }
+}
+
+/// Notes what is wrong with the names of `program`, and returns what the main file defines for nothing.
+pub fn lint<'a>(program: &'a Program, problems: &mut Problems) -> Vec<Unused<'a>> {
+    let seen = vec![false; program.files.len()];
+    let mut lint = Lint { program, problems, scopes: Vec::new(), main: false, seen, unused: Vec::new() };
     lint.root(FileIndex(0));
     for index in 1..program.files.len() {
         // What the main file includes was seen as part of it.
@@ -21,6 +34,26 @@ pub fn lint(program: &Program, problems: &mut Problems) {
             lint.root(FileIndex(index as u32));
         }
     }
+    if is_library(program) {
+        lint.unused.retain(|unused| unused.kind == "the import");
+    }
+    lint.unused.sort_by_key(|unused| unused.defined);
+    lint.unused
+}
+
+/// Whether the main file holds definitions only: then they are for those who import it.
+fn is_library(program: &Program) -> bool {
+    let defines = |item: &Item| {
+        matches!(
+            item.kind,
+            ItemKind::Import { .. }
+                | ItemKind::Units(_)
+                | ItemKind::Param { .. }
+                | ItemKind::Let { .. }
+                | ItemKind::Fn(_)
+        )
+    };
+    program.files[0].items.iter().all(defines)
 }
 
 struct Lint<'a, 'p> {
@@ -30,6 +63,7 @@ struct Lint<'a, 'p> {
     /// Whether we are in the main file, where unused definitions are worth a word.
     main: bool,
     seen: Vec<bool>,
+    unused: Vec<Unused<'a>>,
 }
 
 /// The names of a scope.
@@ -81,7 +115,8 @@ impl<'a> Lint<'a, '_> {
             ItemKind::Let { name, .. } => self.define(name, Some("the value")),
             ItemKind::Param { name, .. } => self.define(name, Some("the parameter")),
             ItemKind::Fn(function) => self.define(&function.name, Some("the function")),
-            ItemKind::Import { alias, .. } => self.define(alias, Some("the import")),
+            // An import that could not be read is wrong already.
+            ItemKind::Import { alias, file, .. } => self.define(alias, file.map(|_| "the import")),
             ItemKind::Place(Place { name: Some(name), .. }) => self.define(name, None),
             _ => {}
         }
@@ -106,13 +141,10 @@ impl<'a> Lint<'a, '_> {
     /// Closes a scope and notes what nothing used in it.
     fn leave(&mut self) {
         let names = self.scopes.pop().unwrap_or_default();
-        let mut unused: Vec<_> = names.into_iter().filter(|(_, found)| !found.used).collect();
-        unused.sort_by_key(|(_, found)| found.span);
-        for (name, found) in unused {
-            if let Some(kind) = found.kind {
-                self.problems.push(Error::Unused { kind, name: name.to_owned(), defined: found.span });
-            }
-        }
+        let unused = names.into_iter().filter(|(_, found)| !found.used);
+        self.unused.extend(
+            unused.filter_map(|(name, found)| Some(Unused { kind: found.kind?, name, defined: found.span })),
+        );
     }
 
     fn mark(&mut self, name: &str) {

@@ -21,6 +21,8 @@ mod noise;
 mod operator;
 mod param;
 mod scope;
+#[cfg(test)]
+mod tests;
 mod value;
 
 use crate::diag::{Problems, Trail};
@@ -57,11 +59,16 @@ pub fn resolve(
     if program.files.is_empty() {
         return ir::Scene::default();
     }
-    lint::lint(program, problems);
+    // What seems unused may be used where the text could not be read.
+    let readable = !problems.has_errors();
+    let unused = lint::lint(program, problems);
     let mut resolver = Resolver::new(program, sources, problems);
     resolver.set_parameters(settings);
     resolver.run_file(FileIndex(0));
     resolver.evaluate_the_rest();
+    if readable {
+        resolver.report_unused(unused);
+    }
     resolver.scene
 }
 
@@ -92,6 +99,8 @@ struct Resolver<'a> {
     reported: FxHashSet<(String, usize)>,
     /// What the command line says, by parameter.
     settings: Vec<(&'a str, &'a Setting)>,
+    /// Names that a report proposed for others: they are meant, only misspelt.
+    proposed: FxHashSet<String>,
     environment: Option<Span>,
     render: Option<Span>,
     budget: Budget,
@@ -107,11 +116,15 @@ enum Step<'a> {
 impl Step<'_> {
     fn told(&self) -> Trail {
         match self {
-            Self::Call(name, span) => Trail { span: *span, text: format!("in this call of `{}`", name.value) },
+            Self::Call(name, span) => {
+                Trail { span: *span, text: format!("in this call of `{}`", name.value) }
+            }
             Self::Turn(name, Some(value)) => {
                 Trail { span: name.span, text: format!("in the turn `{} = {}`", name.value, value.write()) }
             }
-            Self::Turn(name, None) => Trail { span: name.span, text: format!("in a turn of `{}`", name.value) },
+            Self::Turn(name, None) => {
+                Trail { span: name.span, text: format!("in a turn of `{}`", name.value) }
+            }
         }
     }
 }
@@ -132,6 +145,7 @@ impl<'a> Resolver<'a> {
             called: FxHashSet::default(),
             reported: FxHashSet::default(),
             settings: Vec::new(),
+            proposed: FxHashSet::default(),
             environment: None,
             render: None,
             budget: Budget::default(),
@@ -154,6 +168,21 @@ impl<'a> Resolver<'a> {
     fn poison(&mut self, error: Error) -> Value<'a> {
         self.report(error);
         Value::Poison
+    }
+
+    /// "did you mean ..?", with a note of what was proposed.
+    fn propose<'n>(&mut self, wanted: &str, names: impl IntoIterator<Item = &'n str>) -> Option<String> {
+        let near = crate::diag::nearest(wanted, names);
+        self.proposed.extend(near.iter().map(|&name| name.to_owned()));
+        crate::diag::did_you_mean(wanted, near)
+    }
+
+    /// Warns of definitions that nothing uses, unless a misspelt name may have meant them.
+    fn report_unused(&mut self, mut unused: Vec<lint::Unused<'a>>) {
+        unused.retain(|found| !self.proposed.contains(found.name));
+        for found in unused {
+            self.report(found.error());
+        }
     }
 
     /// The text of a place on one line, cut when it is long.

@@ -163,9 +163,11 @@ impl<'a> Resolver<'a> {
         let shape_handle = handle.get().unwrap_or_else(|| shapes.push(shape.clone()));
         handle.set(Some(shape_handle));
         let world_from_object = around.world * compose(&node.transform);
-        let mut transforms = Vec::with_capacity(node.transform.len() + around.steps.len());
-        transforms.extend_from_slice(&node.transform);
-        transforms.extend_from_slice(&around.steps);
+        let transforms = if ir::is_singular(&world_from_object) {
+            node.transform.iter().chain(&around.steps).copied().collect()
+        } else {
+            Vec::new()
+        };
         self.scene.objects.push(ir::Object {
             shape: shape_handle,
             material: around.forced.or(node.material).or(around.fallback),

@@ -175,6 +175,9 @@ impl<'a> Resolver<'a> {
         right: &Operand<'a>,
         help: Option<String>,
     ) -> Value<'a> {
+        let joins_alike =
+            matches!(sign(op), "+" | "-" | "==" | "!=" | "<" | "<=" | ">" | ">=" | ".." | "..=");
+        let help = help.or(joins_alike.then(|| "both sides have to be of the same kind".to_owned()));
         self.poison(Error::Incompatible {
             operator: sign(op),
             left_noun: left.value.noun(),

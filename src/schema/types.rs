@@ -213,8 +213,27 @@ impl Type {
         }
     }
 
+    /// The SI unit of a number of this type.
+    const fn unit(self) -> &'static str {
+        match self {
+            Self::Length | Self::Point | Self::Offset => "m",
+            Self::Angle => "rad",
+            Self::Time => "s",
+            Self::Power => "W",
+            Self::Temperature => "K",
+            Self::Pixels => "px",
+            Self::Exposure => "EV",
+            _ => "",
+        }
+    }
+
     /// A number in SI units as a scene would say it: `45deg`, `36mm`.
     pub fn write(self, value: f64) -> String {
+        /// From here on digits say less than the exponent.
+        const LARGE: f64 = 1e7;
+        if value.abs() >= LARGE && value.is_finite() {
+            return format!("{value:e}{}", self.unit());
+        }
         let rounded = |x: f64| (x * 1e9).round() / 1e9;
         match self {
             Self::Length | Self::Point | Self::Offset if value != 0.0 && value.abs() < 0.01 => {
@@ -223,15 +242,9 @@ impl Type {
             Self::Length | Self::Point | Self::Offset if value != 0.0 && value.abs() < 1.0 => {
                 format!("{}cm", rounded(value * 1e2))
             }
-            Self::Length | Self::Point | Self::Offset => format!("{value}m"),
             Self::Angle => format!("{}deg", rounded(value.to_degrees())),
-            Self::Time => format!("{value}s"),
-            Self::Power => format!("{value}W"),
-            Self::Temperature => format!("{value}K"),
-            Self::Pixels => format!("{value}px"),
-            Self::Exposure => format!("{value}EV"),
             Self::FNumber => format!("f/{value}"),
-            _ => format!("{}", rounded(value)),
+            _ => format!("{}{}", rounded(value), self.unit()),
         }
     }
 }

@@ -175,20 +175,22 @@ impl Lower<'_> {
             sequence.push(item(ItemKind::Let { value, name: name.clone() }, name.span));
             return;
         }
-        let example = format!("write `{}: ..`", name.value);
+        let example = || format!("write `{}: ..`", name.value);
         if let Some(sign) = parts.take(Rule::wrong_equals) {
             let (written, wanted) = ("=".to_owned(), ":");
             self.note(SyntaxError::WrongSign {
                 written,
                 wanted,
-                hint: example.clone(),
+                hint: example(),
                 at: self.text.span_of(&sign),
             });
         } else if parts.skip(Rule::missing_colon) {
             let (sign, place) = (":", format!("after `{}`", name.value));
-            self.note(SyntaxError::MissingSign { sign, place, hint: example.clone(), at: name.span.after() });
+            self.note(SyntaxError::MissingSign { sign, place, hint: example(), at: name.span.after() });
         }
-        let value = self.given_or_poison(&mut parts, &format!("the value of `{}`", name.value), &example);
+        let what = || format!("the value of `{}`", name.value);
+        let missing = |at| SyntaxError::MissingValue { what: what(), hint: example(), at };
+        let value = self.given(&mut parts, missing).unwrap_or_else(|| poison(name.span));
         self.refuse_allows(sequence);
         sequence.entries.push(Entry::Field(Field { name, value }));
         sequence.last = Last::Open;

@@ -30,11 +30,9 @@ impl Lower<'_> {
     pub(super) fn object(&mut self, pair: Pair<'_, Rule>) -> Object {
         let start = self.text.span_of(&pair);
         let mut parts = Parts::of(pair);
-        let mut words =
-            parts.take(Rule::head).into_iter().flat_map(Pair::into_inner).map(|word| self.word(&word));
-        let kind = words.next().unwrap_or_else(|| Spanned::new(String::new(), start));
-        let second = words.next();
-        drop(words);
+        let mut words = parts.take(Rule::head).into_iter().flat_map(Pair::into_inner);
+        let kind = words.next().map_or_else(|| Spanned::new(String::new(), start), |word| self.word(&word));
+        let second = words.next().map(|word| self.word(&word));
         let body = self.body(&mut parts, "this object");
         Object { span: kind.span.to(body.span), kind, second, body }
     }
@@ -54,9 +52,9 @@ impl Lower<'_> {
     /// `choice = { condition ~ (kw_else ~ condition)* ~ (kw_else ~ body)? }`, as an item
     pub(super) fn choice(&mut self, pair: Pair<'_, Rule>) -> Item {
         let span = self.text.span_of(&pair);
-        let arms = pair.clone().into_inner().len();
+        let mut parts = Parts::of(pair);
+        let arms = parts.count(|rule| rule == Rule::condition);
         let lowered = self.nested(arms, span, |lower| {
-            let mut parts = Parts::of(pair);
             let mut arms = Vec::new();
             while let Some(arm) = parts.take(Rule::condition) {
                 arms.push(lower.condition(arm));
@@ -96,10 +94,8 @@ impl Lower<'_> {
     /// `expr = { prefix* ~ operand ~ (infix ~ prefix* ~ operand)* }`, flat; climbed here.
     pub(super) fn expr(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let span = self.text.span_of(&pair);
-        let is_operator =
-            |part: &Pair<'_, Rule>| matches!(part.as_rule(), Rule::infix | Rule::last_infix | Rule::prefix);
-        let operators = pair.clone().into_inner().filter(is_operator).count();
         let mut parts = Parts::of(pair);
+        let operators = parts.count(|rule| matches!(rule, Rule::infix | Rule::last_infix | Rule::prefix));
         if operators == 0 {
             return self.operand(&mut parts);
         }
@@ -186,9 +182,9 @@ impl Lower<'_> {
     /// `chain = ${ (name ~ (sp+ ~ (list | string))? | list | tuple) ~ (member | call | index)* }`
     fn chain(&mut self, pair: Pair<'_, Rule>) -> Expr {
         let span = self.text.span_of(&pair);
-        let links = pair.clone().into_inner().len() - 1;
+        let mut parts = Parts::of(pair);
+        let links = parts.count(|rule| matches!(rule, Rule::member | Rule::call | Rule::index));
         self.nested(links, span, |lower| {
-            let mut parts = Parts::of(pair);
             let mut base = lower.chain_head(&mut parts, span);
             for link in parts.rest() {
                 base = lower.link(base, link);

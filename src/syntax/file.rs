@@ -6,19 +6,24 @@ use super::grammar::{Parts, Rule, Snell};
 use super::lower::{Lower, MAX_DEPTH};
 use pest::Parser;
 use pest::error::InputLocation;
+use pest::iterators::Pair;
 use std::ops::Range;
 
-impl Lower<'_> {
-    /// `file = { SOI ~ entry* ~ EOI }`
-    pub(super) fn file(&mut self) -> Vec<Item> {
-        let file = match Snell::parse(Rule::file, self.text.text) {
+impl<'a> Lower<'a> {
+    /// The text as the grammar reads it.
+    fn parse(&mut self, rule: Rule) -> Option<Pair<'a, Rule>> {
+        match Snell::parse(rule, self.text.text) {
             Ok(mut pairs) => pairs.next(),
             Err(error) => {
                 self.unparsed(&error);
                 None
             }
-        };
-        let Some(file) = file else { return Vec::new() };
+        }
+    }
+
+    /// `file = { SOI ~ entry* ~ EOI }`
+    pub(super) fn file(&mut self) -> Vec<Item> {
+        let Some(file) = self.parse(Rule::file) else { return Vec::new() };
         let mut parts = Parts::of(file);
         self.version(&mut parts);
         let (entries, _) = self.entries(parts, false);
@@ -31,11 +36,7 @@ impl Lower<'_> {
 
     /// `alone = { SOI ~ value ~ EOI }`, as in `--set NAME=VALUE`
     pub(super) fn alone(&mut self) -> Option<Expr> {
-        let parsed = Snell::parse(Rule::alone, self.text.text).map(|mut pairs| pairs.next());
-        let alone = parsed.unwrap_or_else(|error| {
-            self.unparsed(&error);
-            None
-        })?;
+        let alone = self.parse(Rule::alone)?;
         let what = "one value, and no more,".to_owned();
         let at = self.text.span(0, self.text.text.len());
         let mut values = self.elements(alone, "values", |lower, value| Some(lower.value(value)));

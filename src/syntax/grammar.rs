@@ -45,6 +45,11 @@ impl<'i> Parts<'i> {
         self.pairs.find(|pair| !is_silent(pair.as_rule()))
     }
 
+    /// How many of the parts that are left are of a kind that `is_meant` says.
+    pub(super) fn count(&self, is_meant: impl Fn(Rule) -> bool) -> usize {
+        self.pairs.clone().filter(|pair| is_meant(pair.as_rule())).count()
+    }
+
     /// All parts that are left.
     pub(super) fn rest(self) -> impl Iterator<Item = Pair<'i, Rule>> {
         self.pairs.filter(|pair| !is_silent(pair.as_rule()))

@@ -16,7 +16,7 @@ impl Lower<'_> {
             Rule::import => self.import(pair),
             Rule::units => ItemKind::Units(self.body(&mut Parts::of(pair), "`units`")),
             Rule::param => self.param(pair, span),
-            Rule::binding => self.binding(pair, span),
+            Rule::binding => self.binding(pair),
             Rule::function => self.function(pair, span),
             Rule::repeat => self.repeat(pair),
             Rule::place => ItemKind::Place(self.place(pair)),
@@ -110,7 +110,7 @@ impl Lower<'_> {
     }
 
     /// `binding = { kw_let ~ binder ~ unwanted_type? ~ equals ~ given }`
-    fn binding(&mut self, pair: Pair<'_, Rule>, _span: Span) -> ItemKind {
+    fn binding(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
         let mut parts = Parts::of(pair);
         let before = self.errors.len();
         let name = self.binder(&mut parts, "this value", "goblet");

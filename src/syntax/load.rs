@@ -3,7 +3,7 @@
 use super::ast::{File, FileIndex, Item, Program};
 use super::error::SyntaxError;
 use super::foreign::recognise;
-use super::lower::{Lower, Request};
+use super::lower::{Load, Lower, Request};
 use super::repair::repair;
 use crate::diag::Problems;
 use crate::source::{FileId, Files, Missing, SourceMap, Span};
@@ -66,18 +66,10 @@ impl<'a> Loader<'a> {
     fn items(&mut self, source: FileId) -> Vec<Item> {
         let file = self.sources.file(source);
         let (text, base): (Arc<str>, u32) = (file.text.clone(), file.base);
-        let repaired = match repair(&text, base) {
-            Ok(repaired) => repaired,
-            Err(error) => return self.refuse(error).unwrap_or_default(),
-        };
-        if let Some(error) = recognise(&repaired.as_text(&text, base)) {
-            return self.refuse(error).unwrap_or_default();
-        }
-        let mut load = |request: &Request| self.load(source, request);
-        let mut lower = Lower::new(repaired.as_text(&text, base), &mut load);
-        let items = lower.file();
-        let errors = lower.finish(repaired.errors.clone(), &repaired.guesses);
-        errors.into_iter().for_each(|error| self.problems.push(error));
+        // What is wrong in a file that this one names is noted first; reports are sorted by place in the end.
+        let mut own = Problems::default();
+        let items = items(&text, base, &mut |request| self.load(source, request), &mut own);
+        self.problems.append(own);
         items
     }
 
@@ -157,6 +149,27 @@ impl<'a> Loader<'a> {
         let steps = round.iter().skip(1).map(|&(_, step)| step).collect();
         SyntaxError::FileCycle { cycle: names.join(" -> "), at, steps }
     }
+}
+
+/// The items of a text; `load` reads what they name.
+pub(super) fn items(text: &str, base: u32, load: &mut Load<'_>, problems: &mut Problems) -> Vec<Item> {
+    let repaired = match repair(text, base) {
+        Ok(repaired) => repaired,
+        Err(error) => {
+            problems.push(error);
+            return Vec::new();
+        }
+    };
+    let place = repaired.as_text(text, base);
+    if let Some(error) = recognise(&place) {
+        problems.push(error);
+        return Vec::new();
+    }
+    let mut lower = Lower::new(place, load);
+    let items = lower.file();
+    let errors = lower.finish(repaired.errors.clone(), &repaired.guesses);
+    errors.into_iter().for_each(|error| problems.push(error));
+    items
 }
 
 /// What to say of a file that cannot be found.

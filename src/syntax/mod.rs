@@ -36,6 +36,14 @@ pub fn parse(
     load::Loader::new(sources, files, problems).program(main)
 }
 
+/// Reads one file without those that it names: enough to format it.
+pub fn parse_file(sources: &SourceMap, id: FileId, problems: &mut Problems) -> ast::File {
+    let file = sources.file(id);
+    let mut no_files = |_: &lower::Request| None;
+    let items = load::items(&file.text, file.base, &mut no_files, problems);
+    ast::File { source: id, items }
+}
+
 /// Reads one expression, such as the `8` of `--set f_stop=8`; `name` stands for a file in reports.
 ///
 /// `None`, and a report, when the text is not one expression.

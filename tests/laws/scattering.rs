@@ -139,6 +139,25 @@ fn smooth_bsdfs_are_reciprocal_where_normals_are_real() {
 }
 
 #[test]
+fn photons_scatter_by_the_adjoint_of_what_radiance_does() {
+    // Flux from wo to wi is what wi sees by light from wo, in terms of real cosines (Veach 1997, section 5.3).
+    for (name, bsdf) in smooth_bsdfs() {
+        for wo in directions().into_iter().filter(|wo| 0.05 < wo.z) {
+            for (u, u_lobe) in points(1_000) {
+                let Some(s) = bsdf.sample(wo, u, u_lobe, Transport::Importance) else { continue };
+                let scattered = s.weight.r * s.pdf;
+                let seen = bsdf.eval(s.wi, wo).r * (s.wi.z / wo.z);
+                assert!(
+                    (scattered - seen).abs() <= 5e-3 * seen,
+                    "{name} {wo} to {}: {scattered}, {seen}",
+                    s.wi
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn no_light_passes_from_one_side_of_the_geometric_normal_to_the_other() {
     for (name, bsdf) in smooth_bsdfs() {
         for (a, b) in pairs(10_000) {

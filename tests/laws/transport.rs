@@ -108,6 +108,21 @@ fn light_fades_in_coloured_glass() {
 }
 
 #[test]
+fn a_bubble_in_glass_is_free_space_again() {
+    let mut parts = empty(camera(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z, 1e-3, 4));
+    let glass =
+        |ior, absorption| Material::Glass { ior, tint: Rgb::WHITE, absorption: Rgb::gray(absorption) };
+    parts.materials = vec![glass(1.5, 1.0), glass(1.0, 0.0)];
+    parts.meshes = cuboid(Vec3::splat(-1.0), Vec3::splat(1.0), false, 0);
+    parts.solids = vec![sphere(Vec3::ZERO, 0.5, 1)];
+    parts.environment = uniform_sky(1.0);
+    // Straight through: four boundaries, each with R = 0.04, and 1 m of glass. Paths that turn back absorb more.
+    let pixel = f64::from(mean(&trace(parts, 512, 100)) as f32);
+    let (pass, kept) = (0.96_f64.powi(4), (-1.0_f64).exp());
+    assert!((pass * kept..pass * kept + 0.12).contains(&pixel), "{pixel}");
+}
+
+#[test]
 fn depth_counts_vertices_up_to_the_light() {
     let lit_floor = |max_depth| {
         let mut parts = empty(camera(Vec3::Y, Vec3::NEG_Y, 0.1, 4));

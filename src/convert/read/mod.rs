@@ -217,12 +217,15 @@ impl Reader<'_> {
             None => {}
             Some(Search::Found { root, head }) => {
                 asset.size = picture_size(&head);
-                if !self.asset_roots.contains(&root) {
-                    self.asset_roots.push(root);
-                }
+                self.note_root(&root);
             }
             Some(Search::Elsewhere { path: found, head }) => {
                 asset.size = picture_size(&head);
+                // With the right folder to look in, the path leads there; else the renderer cannot follow it.
+                match found.strip_suffix(&path).filter(|root| root.is_empty() || root.ends_with('/')) {
+                    Some(root) => self.note_root(root.trim_end_matches('/')),
+                    None => asset.missing = true,
+                }
                 self.log.notes.note(Mistake::AssetElsewhere { path: path.clone(), found, at });
             }
             Some(Search::Missing { tried }) => {
@@ -233,6 +236,13 @@ impl Reader<'_> {
         }
         self.assets.insert(path, asset.clone());
         asset
+    }
+
+    /// Notes a folder from which files were found.
+    fn note_root(&mut self, root: &str) {
+        if !self.asset_roots.iter().any(|known| known == root) {
+            self.asset_roots.push(root.into());
+        }
     }
 
     /// A field of one number greater than zero, which becomes `to`.

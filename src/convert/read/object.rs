@@ -215,6 +215,10 @@ impl Reader<'_> {
                     "write the axis first",
                 );
             }
+            Step::Matrix(rows) if rows[12..] != [0.0, 0.0, 0.0, 1.0] => {
+                let help = "the fourth row must be 0 0 0 1; `Matrix` lists rows, `Matrix4f` columns";
+                self.bad_value("this matrix does not keep straight lines parallel", &field.span, help);
+            }
             Step::Matrix(_) => factors.push_front(step), // the two matrix operations multiply on the left
             step => factors.push_back(step),
         }

@@ -103,8 +103,8 @@ impl Reader<'_> {
     fn outward(&mut self, mut points: Vec<(f64, f64)>, at: &Span) -> Vec<(f64, f64)> {
         let (left, right) = (points.iter().any(|p| p.0 < 0.0), points.iter().any(|p| p.0 > 0.0));
         if left && right {
-            let help = "a radius below 0 has no meaning in a `revolve`; move the points to one side";
-            self.differs("this profile crosses its axis", at, help);
+            let help = "a distance from the axis is never below 0: move the points to one side";
+            self.bad_value("this profile crosses its axis", at, help);
         }
         if left && !right {
             for point in &mut points {

@@ -68,8 +68,13 @@ impl Reader<'_> {
         self.log.mapped(&fields.head, "`box`");
         let min = self.log.need_vector(&mut fields, "min_p", "`min`");
         let max = self.log.need_vector(&mut fields, "max_p", "`max`");
+        let head = fields.head.clone();
         self.log.finish(fields);
         let (min, max) = (min?, max?);
+        if (max - min).to_array().contains(&0.0) {
+            self.bad_value("this cube has no volume", &head, "write corners that differ in every coordinate");
+            return None;
+        }
         Some(Shape::Cuboid { min: min.min(max), max: max.max(min) })
     }
 

@@ -83,6 +83,15 @@ impl Lobe {
         matches!(self, Self::Mirror { .. } | Self::Dielectric { .. })
     }
 
+    /// Whether it scatters nothing.
+    pub fn is_black(&self) -> bool {
+        match self {
+            Self::Lambert { albedo } | Self::Phong { albedo, .. } => albedo.is_black(),
+            Self::Conductor { f0, f90, .. } | Self::Mirror { f0, f90 } => f0.is_black() && f90.is_black(),
+            Self::Dielectric { share, .. } => *share == 0.0,
+        }
+    }
+
     /// Whether it scatters equally in all directions.
     pub fn is_diffuse(&self) -> bool {
         matches!(self, Self::Lambert { .. })

@@ -48,7 +48,7 @@ pub enum Material {
     },
     /// A smooth dielectric around a clear or coloured inside.
     Glass {
-        /// The refractive index of the side against the normal, relative to the other; at least 1.
+        /// The refractive index of the side against the normal; at least 1.
         ior: f32,
         /// The factor at every crossing of the surface, in [0, 1].
         tint: Rgb,
@@ -150,6 +150,14 @@ impl Materials {
         }
     }
 
+    /// The refractive index inside a material; `None` for what has no inside.
+    pub fn ior(&self, id: MaterialId) -> Option<f32> {
+        match *self.get(id) {
+            Material::Glass { ior, .. } => Some(ior),
+            _ => None,
+        }
+    }
+
     fn add_lobes(&self, id: MaterialId, share: f32, surface: &SurfacePoint, bsdf: &mut Bsdf) {
         match *self.get(id) {
             Material::Diffuse { color } => {
@@ -224,7 +232,7 @@ impl Materials {
 pub fn lobe_count(materials: &[Material], id: MaterialId) -> usize {
     let mut parts = Vec::new();
     collect_parts(materials, id, &mut parts);
-    let any = |wanted: fn(&Material) -> bool| usize::from(parts.iter().any(|part| wanted(part)));
+    let any = |wanted: fn(&Material) -> bool| usize::from(parts.iter().any(wanted));
     let glossy = |part: &&Material| {
         matches!(part, Material::Phong { .. } | Material::Metal { .. } | Material::Glass { .. })
     };

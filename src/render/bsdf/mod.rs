@@ -39,6 +39,8 @@ pub struct BsdfSample {
     pub pdf: f32,
     /// Whether the lobe scatters into this direction alone.
     pub specular: bool,
+    /// Whether light went through the surface.
+    pub through: bool,
     /// The refractive index behind the surface, relative to the one in front, if the path went through; 1 otherwise.
     pub eta: f32,
 }
@@ -72,8 +74,11 @@ impl Bsdf {
         Self { frame, n: surface.n, lobes: [Lobe::NONE; Self::MAX_LOBES], count: 0 }
     }
 
-    /// Adds a lobe; diffuse ones are joined into one, and mirrors are too.
+    /// Adds a lobe, unless it is black; diffuse ones are joined into one, and mirrors are too.
     pub fn add(&mut self, lobe: Lobe) {
+        if lobe.is_black() {
+            return;
+        }
         for present in &mut self.lobes[..self.count] {
             if let Some(joined) = present.joined(&lobe) {
                 *present = joined;
@@ -95,6 +100,17 @@ impl Bsdf {
         let mut part = Self { count: 0, ..*self };
         self.lobes().iter().filter(|lobe| keep(lobe)).for_each(|&lobe| part.add(lobe));
         part
+    }
+
+    /// The same between other media: `ior` is the refractive index against the normal over that along it.
+    #[must_use]
+    pub fn with_ior(mut self, ior: f32) -> Self {
+        for lobe in &mut self.lobes[..self.count] {
+            if let Lobe::Dielectric { ior: own, .. } = lobe {
+                *own = ior;
+            }
+        }
+        self
     }
 
     /// Whether any lobe scatters into more than one direction.
@@ -149,7 +165,8 @@ impl Bsdf {
             Transport::Radiance => weight,
             Transport::Importance => weight * self.shading_correction(wo, wi, &view, drawn.wi),
         };
-        Some(BsdfSample { wi, weight, pdf, specular: drawn.specular, eta: drawn.eta })
+        let LobeSample { specular, through, eta, .. } = drawn;
+        Some(BsdfSample { wi, weight, pdf, specular, through, eta })
     }
 
     /// Weight and density of a drawn direction among all lobes.

@@ -6,8 +6,6 @@ mod ppm;
 pub use path::PathTracer;
 pub use ppm::{PhotonMapper, Schedule};
 
-pub(super) use path::transmittance;
-
 use super::film::STREAMS;
 use super::sampler::Sampler;
 use crate::math::{Ray, Rgb};

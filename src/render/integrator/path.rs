@@ -1,9 +1,10 @@
 //! Path tracing: paths from the camera, with light and bsdf sampling joined by multiple importance sampling.
 
 use super::{Counters, Integrator, Pass};
-use crate::math::{Ray, Rgb, Vec3, float};
+use crate::math::{Ray, Rgb, Vec3};
 use crate::render::bsdf::{Bsdf, BsdfSample, Transport};
 use crate::render::geometry::SurfacePoint;
+use crate::render::media::Media;
 use crate::render::sampler::{Dim, Sampler};
 use crate::render::world::World;
 
@@ -39,10 +40,11 @@ impl Integrator for PathTracer<'_> {
     fn begin_pass(&mut self, _: Pass, _: &mut Counters) {}
 
     fn radiance(&self, mut ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+        let materials = &self.world.materials;
         let mut radiance = Rgb::BLACK;
         let mut beta = Rgb::WHITE;
         let mut last = Last { p: ray.o, pdf: f32::INFINITY };
-        let mut medium = Rgb::BLACK; // the absorption coefficient around the ray, per metre
+        let mut media = Media::NONE;
         let mut eta_scale = 1.0; // the factor η² that refraction has taken from beta, and will give back
 
         for depth in 0..self.max_depth {
@@ -53,17 +55,17 @@ impl Integrator for PathTracer<'_> {
             };
             let surface = self.world.interaction(&ray, &hit);
             let wo = -ray.d;
-            beta *= transmittance(medium, hit.t);
+            beta *= media.transmittance(hit.t, materials);
 
             // Add light emitted here, then light straight from the lamps.
             radiance += beta * self.emitted(&surface, wo, &last);
             if depth + 1 == self.max_depth {
                 break;
             }
-            let bsdf = self.world.bsdf(&surface);
+            let bsdf = self.world.bsdf_between(&surface, wo, &media);
             let vertex = Vertex { surface: &surface, bsdf: &bsdf, wo, depth };
             if bsdf.is_smooth() {
-                radiance += beta * self.direct(&vertex, medium, sampler, counters);
+                radiance += beta * self.direct(&vertex, &media, sampler, counters);
             }
 
             // Follow one direction onwards.
@@ -72,8 +74,8 @@ impl Integrator for PathTracer<'_> {
             eta_scale *= next.eta * next.eta;
             ray = surface.spawn(next.wi);
             last = Last { p: surface.p, pdf: if next.specular { f32::INFINITY } else { next.pdf } };
-            if let Some(inside) = self.world.materials.absorption(surface.material) {
-                medium = if next.wi.dot(surface.n) < 0.0 { inside } else { Rgb::BLACK };
+            if next.through {
+                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
             }
 
             // End dim paths early; the survivors carry their weight.
@@ -106,7 +108,7 @@ impl PathTracer<'_> {
     }
 
     /// What one light sends straight to a vertex and on to the viewer, weighed against finding it by the bsdf.
-    fn direct(&self, vertex: &Vertex, medium: Rgb, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+    fn direct(&self, vertex: &Vertex, media: &Media, sampler: &Sampler, counters: &mut Counters) -> Rgb {
         let (world, depth) = (self.world, vertex.depth);
         let Some((light, pmf)) = world.lights.choose(sampler.get_1d(Dim::LightChoice(depth))) else {
             return Rgb::BLACK;
@@ -124,7 +126,7 @@ impl PathTracer<'_> {
         }
         let pdf = pmf * drawn.pdf;
         let weight = if drawn.delta { 1.0 } else { mis_weight(pdf, pdf_bsdf) };
-        arriving * transmittance(medium, drawn.distance()) * (weight / pdf)
+        arriving * media.transmittance(drawn.distance(), &world.materials) * (weight / pdf)
     }
 }
 
@@ -147,14 +149,6 @@ pub fn mis_weight(a: f32, b: f32) -> f32 {
     }
     let ratio = b / a;
     1.0 / (1.0 + ratio * ratio)
-}
-
-/// The share of light left after `distance` metres of a medium that absorbs `sigma` per metre.
-pub(in crate::render) fn transmittance(sigma: Rgb, distance: f32) -> Rgb {
-    if sigma.is_black() {
-        return Rgb::WHITE;
-    }
-    sigma.map(|sigma| if sigma > 0.0 { float::exp(-sigma * distance) } else { 1.0 })
 }
 
 /// Bounces before a path may be ended by chance; specular ones scatter nothing and wait longer.

@@ -9,11 +9,12 @@
 //! photon is ever gathered through the lobe that led there.
 
 use super::path::roulette;
-use super::{Counters, Integrator, Pass, transmittance};
+use super::{Counters, Integrator, Pass};
 use crate::math::{Ray, Rgb, Vec3};
 use crate::render::bsdf::{Bsdf, Lobe, Transport};
 use crate::render::driver::PpmSettings;
 use crate::render::geometry::SurfacePoint;
+use crate::render::media::Media;
 use crate::render::photon::{Disc, Neighbor, Photon, PhotonMap, gathers, trace_photons};
 use crate::render::sampler::{Dim, Sampler};
 use crate::render::world::World;
@@ -88,7 +89,7 @@ impl Integrator for PhotonMapper<'_> {
     fn radiance(&self, mut ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
         let mut radiance = Rgb::BLACK;
         let mut beta = Rgb::WHITE;
-        let mut medium = Rgb::BLACK; // the absorption coefficient around the ray, per metre
+        let mut media = Media::NONE;
         let mut eta_scale = 1.0; // the factor η² that refraction has taken from beta, and will give back
 
         for depth in 0..self.max_depth {
@@ -99,11 +100,11 @@ impl Integrator for PhotonMapper<'_> {
             };
             let surface = self.world.interaction(&ray, &hit);
             let wo = -ray.d;
-            beta *= transmittance(medium, hit.t);
+            beta *= media.transmittance(hit.t, &self.world.materials);
 
             // Add light emitted here, then light that photons brought.
             radiance += beta * self.world.emitted(&surface, wo);
-            let bsdf = self.world.bsdf(&surface);
+            let bsdf = self.world.bsdf_between(&surface, wo, &media);
             let rough = bsdf.only(gathers);
             if !rough.lobes().is_empty() {
                 radiance += beta * self.gather(&surface, &rough, wo, depth + 1);
@@ -116,8 +117,8 @@ impl Integrator for PhotonMapper<'_> {
             beta *= next.weight;
             eta_scale *= next.eta * next.eta;
             ray = surface.spawn(next.wi);
-            if let Some(inside) = self.world.materials.absorption(surface.material) {
-                medium = if next.wi.dot(surface.n) < 0.0 { inside } else { Rgb::BLACK };
+            if next.through {
+                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
             }
 
             // End dim paths early; the survivors carry their weight.

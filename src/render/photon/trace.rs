@@ -3,7 +3,8 @@
 use super::Photon;
 use crate::math::{Ray, Rgb};
 use crate::render::bsdf::{Lobe, Transport};
-use crate::render::integrator::{Counters, Pass, transmittance};
+use crate::render::integrator::{Counters, Pass};
+use crate::render::media::Media;
 use crate::render::sampler::{Dim, Sampler};
 use crate::render::world::World;
 use rayon::prelude::*;
@@ -65,14 +66,14 @@ impl Tracer<'_> {
 
     /// Along a ray, from surface to surface, leaving a photon on each that gathers them.
     fn follow(&mut self, mut ray: Ray, mut power: Rgb, sampler: &Sampler) {
-        let mut medium = Rgb::BLACK; // the absorption coefficient around the ray, per metre
+        let mut media = Media::NONE;
         for bounce in 0..self.max_depth.saturating_sub(1) {
             self.rays += 1;
             let Some(hit) = self.world.closest_hit(&ray) else { return };
             let surface = self.world.interaction(&ray, &hit);
-            let bsdf = self.world.bsdf(&surface);
             let wi = -ray.d;
-            power *= transmittance(medium, hit.t);
+            let bsdf = self.world.bsdf_between(&surface, wi, &media);
+            power *= media.transmittance(hit.t, &self.world.materials);
             if power.is_black() || !power.is_valid() {
                 return;
             }
@@ -90,8 +91,8 @@ impl Tracer<'_> {
             }
             power *= next.weight / survival;
             ray = surface.spawn(next.wi);
-            if let Some(inside) = self.world.materials.absorption(surface.material) {
-                medium = if next.wi.dot(surface.n) < 0.0 { inside } else { Rgb::BLACK };
+            if next.through {
+                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
             }
         }
     }

@@ -74,9 +74,11 @@ impl<'a> Resolver<'a> {
                 None
             }
             (Some("fov_x"), None) => fields.number("fov_x").map(|angle| angle.map(Fov::Horizontal)),
-            (Some(_), None) if let Some(angle) = fields.number("fov") => Some(angle.map(Fov::Vertical)),
-            (_, Some(_)) => None,
-            (_, None) => Some(Spanned::new(Fov::Vertical(std::f64::consts::FRAC_PI_4), fields.head)),
+            (None, Some(_)) => None,
+            (_, None) => fields
+                .number("fov")
+                .map(|angle| angle.map(Fov::Vertical))
+                .or(Some(Spanned::new(Fov::Vertical(std::f64::consts::FRAC_PI_4), fields.head))),
         }
     }
 

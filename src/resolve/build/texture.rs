@@ -19,10 +19,10 @@ impl<'a> Resolver<'a> {
     }
 
     /// `image("wood.png")`.
-    pub(in crate::resolve) fn image_file(&mut self, file: &Value<'a>, span: Span) -> Value<'a> {
-        let Value::Text(file) = file else { return Value::Poison };
+    pub(in crate::resolve) fn image_file(&mut self, file: &Spanned<Value<'a>>, span: Span) -> Value<'a> {
+        let Value::Text(name) = &file.value else { return Value::Poison };
         let image = ImageUse {
-            file: Spanned::new(file.to_string(), span),
+            file: Spanned::new(name.to_string(), file.span),
             skip_missing: false,
             wrap: Wrap::Repeat,
             linear_filter: true,

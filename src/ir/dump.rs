@@ -1,0 +1,280 @@
+//! The typed scene as text, for tests and for the curious: a line per thing, an indent per level, SI units.
+
+use super::camera::Fov;
+use super::light::EnvironmentRadiance;
+use super::material::CheckerCells;
+use super::{
+    Brightness, Camera, Curve, Exposure, Focus, Handle, ImageUse, Input, Lens, Light, LightKind, Material,
+    MaterialKind, MetalColor, Object, Projection, RevolveMethod, Scene, ShapeKind, TextureKind,
+};
+use crate::math::{DAffine3, DVec2, DVec3, Rgb};
+use std::fmt::Write;
+
+/// The whole scene as text.
+pub fn dump(scene: &Scene) -> String {
+    let mut out = String::new();
+    for param in &scene.params {
+        line(&mut out, &format!("param {} = {}", param.name.value, param.value));
+    }
+    for (handle, texture) in scene.textures.entries() {
+        line(&mut out, &format!("texture {handle:?} {}", texture_kind(&texture.kind)));
+    }
+    for (handle, material) in scene.materials.entries() {
+        let name = material.name.as_ref().map_or(String::new(), |name| format!(" `{name}`"));
+        line(&mut out, &format!("material {handle:?}{name} {}", material_kind(material)));
+    }
+    for (handle, shape) in scene.shapes.entries() {
+        line(&mut out, &format!("shape {handle:?} {}", shape_kind(&shape.kind)));
+    }
+    scene.objects.iter().for_each(|object| dump_object(&mut out, scene, object));
+    scene.lights.iter().for_each(|light| line(&mut out, &light_text(light)));
+    if let Some(environment) = &scene.environment {
+        let radiance = match environment.radiance {
+            EnvironmentRadiance::Constant(color) => rgb(color),
+            EnvironmentRadiance::Image(texture) => format!("texture {texture:?}"),
+        };
+        let (scale, rotation) = (environment.scale.value, number(environment.rotation));
+        line(&mut out, &format!("environment radiance {radiance} scale {scale} rotation {rotation}"));
+    }
+    scene.cameras.iter().for_each(|camera| dump_camera(&mut out, scene, camera));
+    dump_render(&mut out, scene);
+    out
+}
+
+fn line(out: &mut String, text: &str) {
+    out.push_str(text.trim_end());
+    out.push('\n');
+}
+
+/// Rounded to nine decimals, without a negative zero.
+fn number(x: f64) -> String {
+    format!("{}", (x * 1e9).round() / 1e9 + 0.0)
+}
+
+fn point(p: DVec3) -> String {
+    format!("({} {} {})", number(p.x), number(p.y), number(p.z))
+}
+
+fn pair(p: DVec2) -> String {
+    format!("({} {})", number(p.x), number(p.y))
+}
+
+/// Channels rounded to five decimals, which is finer than any display.
+fn rgb(color: Rgb) -> String {
+    let channel = |x: f32| (f64::from(x) * 1e5).round() / 1e5 + 0.0;
+    match color.to_array().map(channel) {
+        [r, g, b] if r == g && g == b => format!("{r}"),
+        [r, g, b] => format!("rgb({r} {g} {b})"),
+    }
+}
+
+fn input(input: Input) -> String {
+    match input {
+        Input::Constant(color) => rgb(color.value),
+        Input::Texture(texture) => format!("texture {:?}", texture.value),
+    }
+}
+
+fn brightness(brightness: Brightness) -> String {
+    match brightness {
+        Brightness::Power(watts) => format!("power {}", number(watts)),
+        Brightness::Radiance(value) => format!("radiance {}", rgb(value)),
+        Brightness::Intensity(value) => format!("intensity {}", rgb(value)),
+        Brightness::Irradiance(value) => format!("irradiance {}", number(value)),
+    }
+}
+
+fn texture_kind(kind: &TextureKind) -> String {
+    match kind {
+        TextureKind::Image(image) => image_text(image),
+        TextureKind::Checker(checker) => {
+            let cells = match checker.cells {
+                CheckerCells::Uv(cells) => format!("cells {}", pair(cells)),
+                CheckerCells::Solid(size) => format!("size {}", number(size)),
+            };
+            format!("checker a {} b {} {cells}", rgb(checker.a.value), rgb(checker.b.value))
+        }
+    }
+}
+
+fn image_text(image: &ImageUse) -> String {
+    let mut out = format!("image \"{}\" {:?}", image.file.value, image.wrap);
+    if !image.linear_filter {
+        out.push_str(" nearest");
+    }
+    if image.skip_missing {
+        out.push_str(" skip missing");
+    }
+    if (image.uv_scale, image.uv_offset) != (DVec2::ONE, DVec2::ZERO) {
+        let _ = write!(out, " uv {} + {}", pair(image.uv_scale), pair(image.uv_offset));
+    }
+    if let Projection::Planar { origin, u, v } = image.projection {
+        let _ = write!(out, " planar {} u {} v {}", point(origin), point(u), point(v));
+    }
+    out
+}
+
+fn material_kind(material: &Material) -> String {
+    match &material.kind {
+        MaterialKind::Diffuse { color } => format!("diffuse {}", input(*color)),
+        MaterialKind::Phong { diffuse, specular, shininess } => {
+            format!("phong {} specular {} shininess {}", input(*diffuse), input(*specular), shininess.value)
+        }
+        MaterialKind::Mirror { color } => format!("mirror {}", input(*color)),
+        MaterialKind::Metal { color, roughness } => {
+            let color = match color {
+                MetalColor::Named(name, color) => format!("{} {}", name.value, rgb(*color)),
+                MetalColor::Color(color) => input(*color),
+            };
+            format!("metal {color} roughness {}", input(*roughness))
+        }
+        MaterialKind::Glass { ior, tint, absorption } => {
+            format!("glass ior {} tint {} absorption {}", ior.value, rgb(tint.value), rgb(*absorption))
+        }
+        MaterialKind::Emissive { brightness: b, color } => {
+            format!("emissive {} color {}", brightness(b.value), rgb(*color))
+        }
+        MaterialKind::Mix { a, b, amount } => format!("mix {a:?} {b:?} amount {}", input(*amount)),
+    }
+}
+
+fn shape_kind(kind: &ShapeKind) -> String {
+    match kind {
+        ShapeKind::Sphere { center, radius } => {
+            format!("sphere {} radius {}", point(*center), number(radius.value))
+        }
+        ShapeKind::Plane { normal, offset } => {
+            format!("plane {} offset {}", point(normal.value), number(*offset))
+        }
+        ShapeKind::Disk { center, normal, radius } => {
+            format!("disk {} normal {} radius {}", point(*center), point(normal.value), number(radius.value))
+        }
+        ShapeKind::Quad { origin, edge_u, edge_v } => {
+            format!("quad {} u {} v {}", point(*origin), point(edge_u.value), point(edge_v.value))
+        }
+        ShapeKind::Box { min, max } => format!("box {} {}", point(min.value), point(max.value)),
+        ShapeKind::Triangle { corners: [a, b, c] } => {
+            format!("triangle {} {} {}", point(a.value), point(b.value), point(c.value))
+        }
+        ShapeKind::Mesh { file, scale, smooth, skip_missing } => {
+            format!("mesh \"{}\" scale {} smooth {smooth:?} skip {skip_missing}", file.value, scale.value)
+        }
+        ShapeKind::Revolve { profile, method } => {
+            let method = match method {
+                RevolveMethod::Exact => "exact".to_owned(),
+                RevolveMethod::Tessellated(None) => "tessellated".to_owned(),
+                RevolveMethod::Tessellated(Some(tolerance)) => {
+                    format!("tessellated {}", number(tolerance.value))
+                }
+            };
+            format!("revolve {method} {}", curve(profile))
+        }
+        ShapeKind::Extrude { outline, holes, depth } => {
+            let holes: String = holes.iter().map(|hole| format!(" hole {}", curve(hole))).collect();
+            format!("extrude depth {} {}{holes}", number(depth.value), curve(outline))
+        }
+    }
+}
+
+fn curve(curve: &Curve) -> String {
+    let points: Vec<String> = curve.points.iter().map(|&p| pair(p)).collect();
+    format!("{:?} {}", curve.kind, points.join(" "))
+}
+
+fn dump_object(out: &mut String, scene: &Scene, object: &Object) {
+    let material = object.material.map_or(String::new(), |m: Handle<Material>| format!(" material {m:?}"));
+    let names: String =
+        object.names.iter().map(|&id| format!(" `{}`", scene.names[id as usize].name.value)).collect();
+    line(out, &format!("object shape {:?}{material}{names}", object.shape));
+    let m = object.world_from_object;
+    if m != DAffine3::IDENTITY {
+        let columns = [m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis, m.translation].map(point);
+        line(out, &format!("    world {}", columns.join(" ")));
+    }
+}
+
+fn light_text(light: &Light) -> String {
+    let kind = match light.kind {
+        LightKind::Point { position } => format!("point {}", point(position)),
+        LightKind::Sphere { center, radius } => {
+            format!("sphere {} radius {}", point(center), number(radius.value))
+        }
+        LightKind::Rect { origin, edge_u, edge_v, two_sided } => {
+            let sides = if two_sided { " two-sided" } else { "" };
+            format!("rect {} u {} v {}{sides}", point(origin), point(edge_u), point(edge_v))
+        }
+        LightKind::Directional { direction } => format!("directional {}", point(direction.value)),
+    };
+    format!("light {kind} {} color {}", brightness(light.brightness.value), rgb(light.color))
+}
+
+fn dump_camera(out: &mut String, scene: &Scene, camera: &Camera) {
+    let name = camera.name.as_ref().map_or(String::new(), |name| format!(" {}", name.value));
+    line(out, &format!("camera{name}"));
+    let (position, direction, up) = (camera.position.value, camera.direction.value, camera.up.value);
+    line(out, &format!("    position {} direction {} up {}", point(position), point(direction), point(up)));
+    match camera.fov.map(|fov| fov.value) {
+        Some(Fov::Vertical(angle)) => line(out, &format!("    fov {}", number(angle))),
+        Some(Fov::Horizontal(angle)) => line(out, &format!("    fov_x {}", number(angle))),
+        None => {}
+    }
+    line(out, &format!("    {}", lens(scene, &camera.lens)));
+    let film = &camera.film;
+    let exposure = match film.exposure.value {
+        Exposure::Auto => "auto".to_owned(),
+        Exposure::Ev(steps) => format!("{}EV", number(steps)),
+    };
+    let ((width, height), filter, tone) = (film.size.value, film.filter.value, film.tone.value);
+    let sensor = number(film.sensor.value);
+    line(
+        out,
+        &format!("    film {width} x {height} {filter:?} sensor {sensor} exposure {exposure} {tone:?}"),
+    );
+}
+
+fn lens(scene: &Scene, lens: &Lens) -> String {
+    match lens {
+        Lens::Pinhole { focal_length: None } => "pinhole".to_owned(),
+        Lens::Pinhole { focal_length: Some(length) } => {
+            format!("pinhole focal_length {}", number(length.value))
+        }
+        Lens::Thin { focal_length, radius, focus, blades, rotation } => {
+            let length = focal_length
+                .map_or(String::new(), |length| format!(" focal_length {}", number(length.value)));
+            let focus = match focus.as_ref().map(|focus| &focus.value) {
+                None => "nothing".to_owned(),
+                Some(Focus::Distance(distance)) => number(*distance),
+                Some(Focus::Point(p)) => point(*p),
+                Some(Focus::On(id, _)) => format!("on `{}`", scene.names[*id as usize].name.value),
+            };
+            let (blades, rotation) = (blades.value, number(rotation.value));
+            format!(
+                "thin{length} radius {} focus {focus} blades {blades} rotation {rotation}",
+                number(radius.value)
+            )
+        }
+    }
+}
+
+fn dump_render(out: &mut String, scene: &Scene) {
+    let render = &scene.render;
+    let mut parts = Vec::new();
+    let mut part = |name: &str, value: Option<String>| {
+        if let Some(value) = value {
+            parts.push(format!(" {name} {value}"));
+        }
+    };
+    part("method", render.method.map(|method| format!("{:?}", method.value).to_lowercase()));
+    part("passes", render.stop.passes.map(|passes| passes.value.to_string()));
+    part("seconds", render.stop.seconds.map(|seconds| number(seconds.value)));
+    part("error", render.stop.error.map(|error| number(error.value)));
+    part("depth", render.depth.map(|depth| depth.value.to_string()));
+    part("seed", render.seed.map(|seed| seed.value.to_string()));
+    part("photons", render.photons.count.map(|count| count.value.to_string()));
+    part("k", render.photons.k.map(|k| k.value.to_string()));
+    part("radius", render.photons.radius.map(|radius| number(radius.value)));
+    part("shrink", render.photons.shrink.map(|shrink| number(shrink.value)));
+    if !parts.is_empty() {
+        line(out, &format!("render{}", parts.concat()));
+    }
+}

@@ -1,0 +1,98 @@
+//! Laws of evaluation that are easier said in code than in a scene.
+
+use super::{Error, resolve};
+use crate::diag::Problems;
+use crate::ir::{Scene, ShapeKind};
+use crate::source::{Memory, SourceMap};
+use crate::syntax;
+use std::path::PathBuf;
+
+/// What a scene means, and the codes of what is wrong with it.
+fn meaning(text: &str) -> (Scene, Vec<String>) {
+    let (mut sources, mut problems) = (SourceMap::default(), Problems::default());
+    let text = format!("snell 1\n{text}");
+    let main = sources.add("main.snell".to_owned(), PathBuf::from("main.snell"), text.into());
+    let main = main.expect("the text is small");
+    let program = syntax::parse(&mut sources, &Memory::default(), main, &mut problems);
+    let scene = resolve(&program, &sources, &[], &mut problems);
+    let codes = problems.into_sorted().iter().map(|p| p.code().replace("snell::resolve::", "")).collect();
+    (scene, codes)
+}
+
+/// The radius of the only sphere.
+fn radius(text: &str) -> f64 {
+    let (scene, codes) = meaning(text);
+    assert_eq!(codes, [""; 0], "{text}");
+    let kinds: Vec<&ShapeKind> = scene.shapes.iter().map(|shape| &shape.kind).collect();
+    match kinds[..] {
+        [ShapeKind::Sphere { radius, .. }] => radius.value,
+        _ => panic!("not one sphere: {text}"),
+    }
+}
+
+#[test]
+fn units_convert_and_cancel() {
+    assert_eq!(radius("sphere { radius: 30cm }"), 0.3);
+    assert_eq!(radius("sphere { radius: 2m / 4s * 2s }"), 1.0);
+    assert_eq!(radius("units { length: mm }\nsphere { radius: 5 }"), 0.005);
+    assert_eq!(radius("sphere { radius: 6m * 2m / 3m }"), 4.0);
+}
+
+#[test]
+fn what_follows_from_a_mistake_is_silent() {
+    let (_, codes) =
+        meaning("let a = nothing\nlet b = a + 1m\nsphere { radius: b * 30deg, center: (b, a, 0m) }");
+    assert_eq!(codes, ["unknown_name"]);
+    let (_, codes) = meaning("fn f(x: length) -> object { sphere { radius: x } }\nplace f(1m + 1deg)");
+    assert_eq!(codes, ["incompatible"]);
+    let (_, codes) = meaning("for i in 0..none { sphere { radious: i * 1m } }");
+    assert_eq!(codes, ["unknown_name", "unknown_field"]);
+}
+
+#[test]
+fn what_nothing_calls_is_looked_at_all_the_same() {
+    let (_, codes) = meaning("fn _f(x: length) -> object { sphere { radius: x, colour: red } }");
+    assert_eq!(codes, ["unknown_field"]);
+    let (_, codes) = meaning("let _unused = glass { iro: 1.5 }");
+    assert_eq!(codes, ["unknown_field"]);
+}
+
+#[test]
+fn deep_definitions_end_in_a_report() {
+    let chain: String = (0..2_000).map(|i| format!("let x{i} = x{} + 1m\n", i + 1)).collect();
+    let (_, codes) = meaning(&format!("{chain}let x2000 = 1m\nsphere {{ radius: x0 }}"));
+    assert_eq!(codes, ["budget"]);
+    // In the natural order none of them needs much depth.
+    let chain: String = (1..2_000).map(|i| format!("let x{i} = x{} + 1m\n", i - 1)).collect();
+    assert_eq!(radius(&format!("let x0 = 1m\n{chain}sphere {{ radius: x1999 }}")), 2_000.0);
+}
+
+#[test]
+fn deep_groups_end_in_a_report() {
+    let groups = |n: usize| format!("{}sphere {{ radius: 1m }}{}", "group { ".repeat(n), " }".repeat(n));
+    assert_eq!(radius(&groups(150)), 1.0);
+    let (_, codes) = meaning(&groups(230));
+    assert!(!codes.is_empty(), "too deep, and nothing said");
+    let nested: String = (1..300).map(|i| format!("let g{i} = group {{ place g{} }}\n", i - 1)).collect();
+    let (_, codes) = meaning(&format!("let g0 = sphere {{ radius: 1m }}\n{nested}place g299"));
+    assert_eq!(codes, ["budget"]);
+}
+
+#[test]
+fn a_long_chain_of_operators_is_no_deep_one() {
+    let sum = vec!["1mm"; 20_000].join(" + ");
+    assert!((radius(&format!("sphere {{ radius: {sum} }}")) - 20.0).abs() < 1e-9);
+}
+
+#[test]
+fn the_same_mistake_in_a_loop_is_told_once() {
+    let (_, codes) = meaning("for i in 0..100 { sphere { radius: 1m, color: i } }");
+    assert_eq!(codes, ["unknown_field"]);
+}
+
+#[test]
+fn an_error_names_its_code() {
+    use miette::Diagnostic;
+    let error = Error::UnevenLight { light: Default::default(), transform: None };
+    assert_eq!(error.code().map(|code| code.to_string()).as_deref(), Some("snell::resolve::uneven_light"));
+}
