@@ -12,8 +12,8 @@ const TURNS: u64 = 50_000_000;
 const ELEMENTS: u64 = 20_000_000;
 /// Values inside values, definitions that need definitions, calls inside calls.
 const DEPTH: u32 = 400;
-/// Groups inside groups.
-pub const GROUPS: u32 = 200;
+/// Groups, places and names inside each other.
+pub const GROUPS: u32 = 400;
 
 /// What has been used up.
 #[derive(Default)]

@@ -71,7 +71,7 @@ fn deep_definitions_end_in_a_report() {
 fn deep_groups_end_in_a_report() {
     let groups = |n: usize| format!("{}sphere {{ radius: 1m }}{}", "group { ".repeat(n), " }".repeat(n));
     assert_eq!(radius(&groups(150)), 1.0);
-    let (_, codes) = meaning(&groups(230));
+    let (_, codes) = meaning(&groups(300));
     assert!(!codes.is_empty(), "too deep, and nothing said");
     let nested: String = (1..300).map(|i| format!("let g{i} = group {{ place g{} }}\n", i - 1)).collect();
     let (_, codes) = meaning(&format!("let g0 = sphere {{ radius: 1m }}\n{nested}place g299"));
