@@ -561,7 +561,9 @@ fn points_drawn_towards_a_viewer_have_the_density_they_claim() {
             let point = geometry.surface_point(&ray, &hit);
             if point.p.distance(sample.p) < 1e-3 {
                 let pdf = geometry.pdf_toward(prim, from, &point);
-                assert!((pdf / sample.pdf - 1.0).abs() < 1e-2, "{prim:?}: {pdf} is not {}", sample.pdf);
+                // The hit is up to 1 mm from the point drawn, and the sharpest bend has a radius of 125 mm.
+                let tolerance = 1e-3 + 1e-2 / sample.n.dot(sample.wi).abs();
+                assert!((pdf / sample.pdf - 1.0).abs() < tolerance, "{prim:?}: {pdf} is not {}", sample.pdf);
                 by_points += 1.0 / f64::from(sample.pdf) / f64::from(count);
             }
         }
