@@ -72,6 +72,7 @@ fn a_lamp_without_end_is_found_by_chance() {
     parts.solids = vec![Solid {
         kind: SolidKind::Plane,
         world_from_object: DAffine3::from_mat3_translation(downwards, DVec3::Y),
+        texture_from_object: DAffine3::IDENTITY,
         material: MaterialId(1),
         source: SourceId::default(),
     }];
