@@ -129,8 +129,11 @@ fn used_folders(text: &str) -> Vec<String> {
     out
 }
 
-/// Whether a path begins with the crate's name.
+/// Whether a path begins with the crate's name, and no module of that name stands in front of the crate.
 fn mentions(text: &str, name: &str) -> bool {
+    if text.contains(&format!("mod {name};")) {
+        return false;
+    }
     let prefix = format!("{name}::");
     let starts = |at: usize| !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':');
     text.match_indices(&prefix).any(|(at, _)| starts(at))

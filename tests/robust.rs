@@ -68,7 +68,7 @@ fn compiles_or_reports(text: &str, files: &Memory) {
     let main = sources.add("main.snell".into(), PathBuf::from("main.snell"), text.into()).unwrap();
     let mut problems = Problems::default();
     let scene = snell::compile(&mut sources, files, main, &[], &mut problems);
-    assert_eq!(scene.is_none(), problems.has_errors(), "a scene comes out exactly when nothing is wrong: {text:?}");
+    assert!(scene.is_some() || problems.has_errors(), "nothing came out, and nothing is said to be wrong: {text:?}");
     for problem in problems.list() {
         for label in problem.error.labels().into_iter().flatten() {
             let file = sources.find(label.offset() as u32).map(|id| sources.file(id).span());
