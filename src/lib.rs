@@ -48,7 +48,11 @@ pub fn compile(
 }
 
 /// A value from the command line, as a text of its own that reports can point into.
-fn setting((name, value): &(String, String), sources: &mut SourceMap, problems: &mut Problems) -> Option<Setting> {
+fn setting(
+    (name, value): &(String, String),
+    sources: &mut SourceMap,
+    problems: &mut Problems,
+) -> Option<Setting> {
     let value = syntax::parse_expression(sources, value, &format!("--set {name}"), problems)?;
     Some(Setting { name: Spanned::new(name.clone(), value.span), value })
 }

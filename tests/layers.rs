@@ -55,7 +55,10 @@ fn read_table(path: &Path) -> BTreeMap<String, Allowed> {
             let words = cell.split_whitespace().map(|word| word.trim_matches('`').to_owned());
             words.filter(|word| word != "–").collect::<BTreeSet<_>>()
         };
-        out.insert(cells[1].trim_matches('`').to_owned(), Allowed { folders: words(cells[2]), crates: words(cells[3]) });
+        out.insert(
+            cells[1].trim_matches('`').to_owned(),
+            Allowed { folders: words(cells[2]), crates: words(cells[3]) },
+        );
     }
     let all: BTreeSet<String> = out.keys().cloned().collect();
     for allowed in out.values_mut().filter(|allowed| allowed.folders.contains("all")) {

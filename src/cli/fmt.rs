@@ -24,7 +24,8 @@ pub struct FmtArgs {
 /// Formats each scene. One with syntax errors is left alone.
 pub fn run(args: &FmtArgs) -> Exit {
     let exits = args.scenes.iter().map(|scene| format(scene, args));
-    exits.fold(Exit::Done, |worst, exit| if worst == Exit::Done || exit == Exit::Usage { exit } else { worst })
+    exits
+        .fold(Exit::Done, |worst, exit| if worst == Exit::Done || exit == Exit::Usage { exit } else { worst })
 }
 
 fn format(scene: &Path, args: &FmtArgs) -> Exit {
