@@ -328,7 +328,7 @@ fn floodlights() -> Vec<(Vec2, f32)> {
         let p = Vec3::new(0.0, 0.0, MIDDLE) + dir * near;
         lamp(p.x, p.z)
     };
-    (-17..=17).map(|i| on_edge((i as f32 * 0.085).tan().atan() * 1.05)).collect()
+    (-17..=17).map(|i| on_edge(i as f32 * 0.089)).collect()
 }
 
 /// A burnt-out core and two halos around each lamp.

@@ -6,7 +6,7 @@ use super::noise::{fractal, ramp};
 use super::paint::srgb;
 use super::smoothstep;
 
-/// Height of the horizon in the window, in metres, and the distance of the eye before it.
+/// The eye before the window, in metres: its distance (x) and its height above the ground (y).
 pub const EYE: Vec2 = Vec2::new(21.0, 4.4);
 
 /// The colour of the sky at a point of the window: x metres right of its middle, y metres above the ground.
