@@ -20,7 +20,9 @@ sphere { center: (0m, 0.4m, 0m), radius: 40cm, material: metal { kind: copper, r
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Any text and any files will do: `Files` is a trait, and editors bring their own.
     let mut sources = SourceMap::default();
-    let main = sources.add("ball.snell".into(), "ball.snell".into(), SCENE.trim_start().into()).ok_or("too large")?;
+    let main = sources
+        .add("ball.snell".into(), "ball.snell".into(), SCENE.trim_start().into())
+        .ok_or("too large")?;
     let files = Memory::default();
 
     // Every phase notes what it finds, and the next one goes on.
@@ -29,7 +31,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let loaded = snell::load::load(&scene, &sources, &files, &mut problems).ok_or("a file is missing")?;
     let camera = scene.cameras.first().ok_or("there is no camera")?;
     let plan = snell::plan::plan(&loaded, Some(camera), None);
-    let lowered = snell::lower::lower(&loaded, &plan, camera, &files, &mut problems).ok_or("a picture is broken")?;
+    let lowered =
+        snell::lower::lower(&loaded, &plan, camera, &files, &mut problems).ok_or("a picture is broken")?;
 
     let stop = Stop { passes: Some(64), ..Stop::default() };
     let settings = Settings { method: lowered.method, max_depth: plan.depth, seed: 0, stop, crop: None };

@@ -11,6 +11,7 @@ pub mod check;
 pub mod cli;
 pub mod convert;
 pub mod diag;
+pub mod format;
 pub mod ir;
 pub mod load;
 pub mod lower;
@@ -31,7 +32,8 @@ use source::{FileId, Files, SourceMap, Spanned};
 /// From the text of `main`, which `sources` holds, to a scene that makes sense.
 ///
 /// `sets` are parameters with their values as text, such as `("f_stop", "f/8")`. Every mistake of every file goes to
-/// `problems`. `None`: something is wrong, and nothing after this can be trusted.
+/// `problems`. `None`: so much is wrong that nothing is left to look at. What comes out is still looked at by
+/// [`load::load`] when `problems` has errors, for more mistakes, but never rendered.
 pub fn compile(
     sources: &mut SourceMap,
     files: &dyn Files,
@@ -46,7 +48,11 @@ pub fn compile(
 }
 
 /// A value from the command line, as a text of its own that reports can point into.
-fn setting((name, value): &(String, String), sources: &mut SourceMap, problems: &mut Problems) -> Option<Setting> {
+fn setting(
+    (name, value): &(String, String),
+    sources: &mut SourceMap,
+    problems: &mut Problems,
+) -> Option<Setting> {
     let value = syntax::parse_expression(sources, value, &format!("--set {name}"), problems)?;
     Some(Setting { name: Spanned::new(name.clone(), value.span), value })
 }

@@ -535,3 +535,46 @@ fn no_ray_escapes_an_egg() {
         assert!(geometry.closest_hit(&Ray::new(o, d)).is_some(), "from {o} along {d}");
     }
 }
+
+#[test]
+fn points_drawn_towards_a_viewer_have_the_density_they_claim() {
+    let corners = vec![Vec3::ZERO, Vec3::new(1.0, 0.2, 0.0), Vec3::new(0.1, 1.0, 0.3)];
+    let squeezed = DAffine3::from_scale(DVec3::new(1.0, 0.5, 2.0));
+    let at = |x: f64| DAffine3::from_translation(DVec3::new(x, 0.0, 0.0));
+    let solids = vec![
+        solid(SolidKind::Sphere, at(10.0)),
+        solid(SolidKind::Disk, at(20.0)),
+        solid(SolidKind::Sphere, at(30.0) * squeezed),
+    ];
+    let geometry = Geometry::build(vec![mesh(corners, vec![[0, 1, 2]])], solids);
+    let mut random = Random(14);
+    for prim in (0..geometry.prim_count()).map(PrimId) {
+        let from = Vec3::new(prim.0 as f32 * 10.0 + 0.3, 0.4, 2.5);
+        // The mean of 1 / pdf over the part that is seen is the solid angle; so is the share of directions that hit.
+        let (mut by_points, mut by_directions) = (0.0, 0.0);
+        let count = 20_000;
+        for _ in 0..count {
+            let u = Vec2::new(random.unit(), random.unit());
+            let Some(sample) = geometry.sample_toward(prim, from, u) else { continue };
+            let ray = Ray::new(from, sample.wi);
+            let Some(hit) = geometry.closest_hit(&ray).filter(|hit| hit.prim == prim) else { continue };
+            let point = geometry.surface_point(&ray, &hit);
+            if point.p.distance(sample.p) < 1e-3 {
+                let pdf = geometry.pdf_toward(prim, from, &point);
+                // The hit is up to 1 mm from the point drawn, and the sharpest bend has a radius of 125 mm.
+                let tolerance = 1e-3 + 1e-2 / sample.n.dot(sample.wi).abs();
+                assert!((pdf / sample.pdf - 1.0).abs() < tolerance, "{prim:?}: {pdf} is not {}", sample.pdf);
+                by_points += 1.0 / f64::from(sample.pdf) / f64::from(count);
+            }
+        }
+        for _ in 0..10 * count {
+            let dir = random.direction();
+            let seen = geometry.closest_hit(&Ray::new(from, dir)).is_some_and(|hit| hit.prim == prim);
+            by_directions += f64::from(u8::from(seen)) * 4.0 * std::f64::consts::PI / f64::from(10 * count);
+        }
+        assert!(
+            (by_points / by_directions - 1.0).abs() < 0.05,
+            "{prim:?}: {by_points} is not {by_directions}"
+        );
+    }
+}

@@ -55,7 +55,10 @@ fn read_table(path: &Path) -> BTreeMap<String, Allowed> {
             let words = cell.split_whitespace().map(|word| word.trim_matches('`').to_owned());
             words.filter(|word| word != "–").collect::<BTreeSet<_>>()
         };
-        out.insert(cells[1].trim_matches('`').to_owned(), Allowed { folders: words(cells[2]), crates: words(cells[3]) });
+        out.insert(
+            cells[1].trim_matches('`').to_owned(),
+            Allowed { folders: words(cells[2]), crates: words(cells[3]) },
+        );
     }
     let all: BTreeSet<String> = out.keys().cloned().collect();
     for allowed in out.values_mut().filter(|allowed| allowed.folders.contains("all")) {
@@ -129,8 +132,11 @@ fn used_folders(text: &str) -> Vec<String> {
     out
 }
 
-/// Whether a path begins with the crate's name.
+/// Whether a path begins with the crate's name, and no module of that name stands in front of the crate.
 fn mentions(text: &str, name: &str) -> bool {
+    if text.contains(&format!("mod {name};")) {
+        return false;
+    }
     let prefix = format!("{name}::");
     let starts = |at: usize| !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':');
     text.match_indices(&prefix).any(|(at, _)| starts(at))

@@ -16,9 +16,9 @@ const SEEDS: [&str; 5] = [
 
 /// Pieces that mutations insert: what the grammar is made of.
 const PIECES: [&str; 40] = [
-    "{", "}", "(", ")", "[", "]", ",", ":", ";", "=", "..", "..=", "\"", "#", "f/", "-", "+", "*", "/", "^", "%", "then",
-    "per", "on", "not", "let x =", "fn f(", "for i in", "if", "else", "param", "import", "include", "1e999", "9cm", "\u{e9}",
-    "\0", "//", "/*", "data [",
+    "{", "}", "(", ")", "[", "]", ",", ":", ";", "=", "..", "..=", "\"", "#", "f/", "-", "+", "*", "/", "^",
+    "%", "then", "per", "on", "not", "let x =", "fn f(", "for i in", "if", "else", "param", "import",
+    "include", "1e999", "9cm", "\u{e9}", "\0", "//", "/*", "data [",
 ];
 
 #[test]
@@ -68,7 +68,10 @@ fn compiles_or_reports(text: &str, files: &Memory) {
     let main = sources.add("main.snell".into(), PathBuf::from("main.snell"), text.into()).unwrap();
     let mut problems = Problems::default();
     let scene = snell::compile(&mut sources, files, main, &[], &mut problems);
-    assert_eq!(scene.is_none(), problems.has_errors(), "a scene comes out exactly when nothing is wrong: {text:?}");
+    assert!(
+        scene.is_some() || problems.has_errors(),
+        "nothing came out, and nothing is said to be wrong: {text:?}"
+    );
     for problem in problems.list() {
         for label in problem.error.labels().into_iter().flatten() {
             let file = sources.find(label.offset() as u32).map(|id| sources.file(id).span());
@@ -94,7 +97,7 @@ fn mutated(seed: u64) -> String {
                 text.insert_str(to, &copy);
             }
             3 => text.replace_range(at..end, PIECES[random.below(PIECES.len())]),
-            _ => text.truncate(at.max(8)),
+            _ => text.truncate(char_boundary(&text, at.max(8))),
         }
     }
     text

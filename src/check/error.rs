@@ -107,12 +107,34 @@ pub enum CheckError {
         #[label("greater than 1")]
         used: Span,
     },
+    #[error("this mix has {found} different parts, and at most {most} can lie at one point")]
+    #[diagnostic(
+        code(snell::check::too_many_parts),
+        help("matt parts count as one, and so do mirrors; mix fewer glossy parts and glasses")
+    )]
+    TooManyParts {
+        found: u32,
+        most: u32,
+        #[label("too many here")]
+        used: Span,
+    },
     #[error("{what} is {found}, and light is never negative")]
     #[diagnostic(code(snell::check::negative_light), help("write 0 for none at all"))]
     NegativeLight {
         what: &'static str,
         found: f64,
         #[label("less than 0")]
+        used: Span,
+    },
+    #[error("an endless plane has no area to shine from")]
+    #[diagnostic(
+        code(snell::check::endless_light),
+        help(
+            "shine from a piece of it: `quad {{ origin: .., edge_u: .., edge_v: .., material: emissive {{ .. }} }}`"
+        )
+    )]
+    EndlessLight {
+        #[label("shines without end")]
         used: Span,
     },
     #[error("`diffuse` and `specular` together send back {found} times the light that arrives")]

@@ -3,7 +3,7 @@
 use super::Check;
 use super::error::CheckError;
 use crate::ir::light::EnvironmentRadiance;
-use crate::ir::{Brightness, Light, LightKind, MaterialKind, Method};
+use crate::ir::{Brightness, Light, LightKind, MaterialKind, Method, ShapeKind};
 use crate::math::Rgb;
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
@@ -14,6 +14,7 @@ impl Check<'_> {
         for light in &self.scene.lights {
             self.light(light);
         }
+        self.endless_lights();
         self.environment();
         self.any_light();
         self.caustics();
@@ -31,6 +32,27 @@ impl Check<'_> {
             LightKind::Point { .. } => {}
         }
         self.brightness(light.brightness, light.color, light.span);
+    }
+
+    /// Notes planes that shine: light is drawn from an area, and theirs is endless.
+    fn endless_lights(&mut self) {
+        let scene = self.scene;
+        let mut emits: Vec<bool> = Vec::with_capacity(scene.materials.len());
+        for material in scene.materials.iter() {
+            emits.push(match &material.kind {
+                MaterialKind::Emissive { .. } => true,
+                MaterialKind::Mix { a, b, .. } => emits[a.index()] || emits[b.index()],
+                _ => false,
+            });
+        }
+        for object in &scene.objects {
+            let shape = &scene.shapes[object.shape];
+            let material = object.material.or(shape.material);
+            let is_plane = matches!(shape.kind, ShapeKind::Plane { .. });
+            if is_plane && material.is_some_and(|material| emits[material.index()]) {
+                self.report(CheckError::EndlessLight { used: object.span });
+            }
+        }
     }
 
     /// Notes negative light, and none at all.

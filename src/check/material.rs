@@ -8,6 +8,39 @@ use crate::math::Rgb;
 use crate::schema::Type;
 use crate::source::Spanned;
 
+/// The most parts of a mix that count on their own: what a renderer keeps at hand for a point.
+const MAX_PARTS: u32 = 6;
+
+/// What a material scatters by: all matt parts count as one, all mirrors too, each glossy part and each glass alone.
+#[derive(Clone, Copy, Default)]
+struct Parts {
+    matt: bool,
+    mirror: bool,
+    others: u32,
+}
+
+impl Parts {
+    fn of(kind: &MaterialKind) -> Self {
+        let (matt, mirror, others) = match kind {
+            MaterialKind::Diffuse { .. } => (true, false, 0),
+            MaterialKind::Phong { .. } => (true, false, 1),
+            MaterialKind::Mirror { .. } => (false, true, 0),
+            MaterialKind::Metal { .. } | MaterialKind::Glass { .. } => (false, false, 1),
+            MaterialKind::Emissive { .. } | MaterialKind::Mix { .. } => (false, false, 0),
+        };
+        Self { matt, mirror, others }
+    }
+
+    fn with(self, other: Self) -> Self {
+        let others = self.others.saturating_add(other.others);
+        Self { matt: self.matt || other.matt, mirror: self.mirror || other.mirror, others }
+    }
+
+    fn count(self) -> u32 {
+        self.others.saturating_add(u32::from(self.matt) + u32::from(self.mirror))
+    }
+}
+
 impl Check<'_> {
     /// Checks every material and texture that was written, placed or not.
     pub(super) fn materials(&mut self) {
@@ -16,6 +49,28 @@ impl Check<'_> {
         }
         for texture in self.scene.textures.iter() {
             self.texture(texture);
+        }
+        self.mixes();
+    }
+
+    /// Mixes come after their parts, so one walk counts the parts of them all, however deep they nest.
+    fn mixes(&mut self) {
+        let mut parts: Vec<Parts> = Vec::with_capacity(self.scene.materials.len());
+        for material in self.scene.materials.iter() {
+            let own = match &material.kind {
+                MaterialKind::Mix { a, b, .. } => parts[a.index()].with(parts[b.index()]),
+                kind => Parts::of(kind),
+            };
+            let mixed = matches!(material.kind, MaterialKind::Mix { .. });
+            if mixed && own.count() > MAX_PARTS {
+                self.report(CheckError::TooManyParts {
+                    found: own.count(),
+                    most: MAX_PARTS,
+                    used: material.span,
+                });
+            }
+            // One report for what is too large, not one more for each mix around it.
+            parts.push(if own.count() > MAX_PARTS { Parts::default() } else { own });
         }
     }
 

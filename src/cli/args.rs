@@ -85,7 +85,8 @@ fn name_and_value(text: &str) -> Result<(String, String), String> {
 
 /// `640x480`: both at least 1 and at most 65,536.
 pub fn size(text: &str) -> Result<(u32, u32), String> {
-    let sides = text.split_once('x').and_then(|(w, h)| Some((w.trim().parse().ok()?, h.trim().parse().ok()?)));
+    let sides =
+        text.split_once('x').and_then(|(w, h)| Some((w.trim().parse().ok()?, h.trim().parse().ok()?)));
     match sides {
         Some((w, h)) if (1..=65_536).contains(&w) && (1..=65_536).contains(&h) => Ok((w, h)),
         Some(_) => Err("each side is from 1 to 65,536 pixels".to_owned()),
@@ -98,13 +99,17 @@ pub fn seconds(text: &str) -> Result<f64, String> {
     const UNITS: [(&str, f64); 4] = [("ms", 1e-3), ("min", 60.0), ("h", 3600.0), ("s", 1.0)];
     let unit = UNITS.iter().find_map(|(unit, factor)| Some((text.strip_suffix(unit)?, *factor)));
     let (number, factor) = unit.unwrap_or((text, 1.0));
-    positive(number).map(|value| value * factor).ok_or_else(|| "write a time such as `90s` or `5min`".to_owned())
+    positive(number)
+        .map(|value| value * factor)
+        .ok_or_else(|| "write a time such as `90s` or `5min`".to_owned())
 }
 
 /// `1%` or `0.01`.
 pub fn share(text: &str) -> Result<f64, String> {
     let (number, factor) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
-    positive(number).map(|value| value * factor).ok_or_else(|| "write an error such as `1%` or `0.01`".to_owned())
+    positive(number)
+        .map(|value| value * factor)
+        .ok_or_else(|| "write an error such as `1%` or `0.01`".to_owned())
 }
 
 fn positive(text: &str) -> Option<f64> {

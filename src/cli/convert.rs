@@ -121,7 +121,12 @@ fn write(args: &ConvertArgs, text: &str, conversion: &Conversion) -> Result<(), 
     } else if !args.messages.quiet && conversion.snell.is_some() {
         let to = args.output.as_deref().unwrap_or(Path::new("standard output")).display();
         let detection = &conversion.detection;
-        note(format_args!("{} → {to}: dialect {}, because {}\n", args.input.display(), detection.dialect.id(), detection.reason));
+        note(format_args!(
+            "{} → {to}: dialect {}, because {}\n",
+            args.input.display(),
+            detection.dialect.id(),
+            detection.reason
+        ));
         note(format_args!("  {}\n", report::summary(&conversion.report)));
     }
     Ok(())

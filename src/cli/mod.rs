@@ -5,6 +5,7 @@
 mod args;
 mod check;
 mod convert;
+mod fmt;
 mod interrupt;
 mod new;
 mod plan;
@@ -30,6 +31,8 @@ enum Command {
     Render(render::RenderArgs),
     /// Report every mistake of scenes, without shooting a ray
     Check(check::CheckArgs),
+    /// Bring scenes into canonical form, in place
+    Fmt(fmt::FmtArgs),
     /// Show what a scene calls for: its effects, why, and the method
     Plan(plan::PlanArgs),
     /// Turn an arsenal.txt scene into a .snell scene
@@ -67,6 +70,7 @@ pub fn run() -> ExitCode {
     let exit = match Cli::parse().command {
         Command::Render(args) => render::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Fmt(args) => fmt::run(&args),
         Command::Plan(args) => plan::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::New(args) => new::run(&args),

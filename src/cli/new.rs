@@ -18,7 +18,8 @@ const FIRST_SCENE: &str = include_str!("first.snell");
 
 /// Writes the first scene, unless the file is already there.
 pub fn run(args: &NewArgs) -> Exit {
-    let path = if args.name.extension().is_some() { args.name.clone() } else { args.name.with_extension("snell") };
+    let path =
+        if args.name.extension().is_some() { args.name.clone() } else { args.name.with_extension("snell") };
     let made = OpenOptions::new().write(true).create_new(true).open(&path);
     if let Err(error) = made.and_then(|mut file| file.write_all(FIRST_SCENE.as_bytes())) {
         return match error.kind() {

@@ -136,6 +136,8 @@ fn terminal_width() -> usize {
 
 /// Whether the locale is one of UTF-8; where nothing is said, plain characters are safe.
 fn speaks_unicode() -> bool {
-    let said = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(|name| std::env::var(name).ok().filter(|v| !v.is_empty()));
+    let said = ["LC_ALL", "LC_CTYPE", "LANG"]
+        .into_iter()
+        .find_map(|name| std::env::var(name).ok().filter(|v| !v.is_empty()));
     said.is_some_and(|locale| locale.to_lowercase().replace('-', "").contains("utf8"))
 }

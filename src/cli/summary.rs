@@ -49,8 +49,9 @@ impl Summary<'_> {
         let _ = writeln!(out, "  error   {}", self.error_text());
         if stats.bad_samples > 0 {
             let places = self.outcome.film.bad_samples().iter();
-            let places: Vec<String> =
-                places.map(|bad| format!("({}, {}) in pass {}", bad.pixel[0], bad.pixel[1], bad.pass)).collect();
+            let places: Vec<String> = places
+                .map(|bad| format!("({}, {}) in pass {}", bad.pixel[0], bad.pixel[1], bad.pass))
+                .collect();
             let _ = writeln!(
                 out,
                 "  trouble {} samples were not numbers and count as 0: pixels {}",

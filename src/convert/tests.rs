@@ -229,27 +229,6 @@ fn deep_nesting_ends_in_a_report() {
     }
 }
 
-/// Time per byte must not grow with the file: a scene takes less than 500 times what 1/32 of it takes, where a quadratic
-/// step would make it 1024 times. The best of several runs, and the slack, are for a busy machine.
-#[test]
-fn large_files_take_linear_time() {
-    let seconds = |objects: usize| {
-        let sphere = "MaterialIndex 0 Sphere { center 0.25 -1.5 3 radius 0.125 } ";
-        let material = "Material { diffuseColor 0.5 0.25 0.75 specularColor 0.5 0.5 0.5 shininess 8 } ";
-        let text = format!(
-            "Materials {{ {} }} Group {{ {} }}",
-            material.repeat(objects / 4),
-            sphere.repeat(objects)
-        );
-        let start = std::time::Instant::now();
-        assert!(convert_plainly(&text).snell.is_some());
-        start.elapsed().as_secs_f64()
-    };
-    let best = |objects| (0..3).map(|_| seconds(objects)).fold(f64::INFINITY, f64::min);
-    let (small, large) = (best(400), best(12_800));
-    assert!(large < 500.0 * small, "{small} s for 1/32 of what takes {large} s");
-}
-
 #[test]
 fn every_dialect_is_told_by_what_sets_it_apart() {
     let thu = "PerspectiveCamera { width 4 height 4 } ";

@@ -3,10 +3,10 @@
 /// The candidates most like `wanted`, the best first, at most three.
 ///
 /// Likeness is the Damerau–Levenshtein distance without regard to case (Damerau 1964; optimal string alignment):
-/// at most a third of the word's length, and one at least, but never the whole of a candidate.
+/// at most a third of the word's length, and never the whole of it.
 pub fn nearest<'a>(wanted: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let lower = wanted.to_lowercase();
-    let limit = (wanted.chars().count() / 3).max(1);
+    let limit = wanted.chars().count().div_ceil(3);
     let mut near: Vec<(usize, &str)> = candidates
         .into_iter()
         .map(|name| (strsim::osa_distance(&name.to_lowercase(), &lower), name))

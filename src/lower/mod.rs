@@ -37,7 +37,8 @@ pub struct Lowered {
     pub center: DVec3,
 }
 
-/// Builds the world that `camera` sees. `None` when a picture cannot be decoded, or the camera has nothing to focus on.
+/// Builds the world that `camera` sees. `None` when `problems` has errors already, when a picture cannot be decoded, or
+/// when the camera has nothing to focus on.
 pub fn lower(
     loaded: &Loaded<'_>,
     plan: &Plan,
@@ -45,6 +46,9 @@ pub fn lower(
     files: &dyn Files,
     problems: &mut Problems,
 ) -> Option<Lowered> {
+    if problems.has_errors() {
+        return None;
+    }
     let center = place::scene_center(loaded);
     let mut lowering = Lowering {
         loaded,

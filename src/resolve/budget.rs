@@ -12,8 +12,8 @@ const TURNS: u64 = 50_000_000;
 const ELEMENTS: u64 = 20_000_000;
 /// Values inside values, definitions that need definitions, calls inside calls.
 const DEPTH: u32 = 400;
-/// Groups inside groups.
-pub const GROUPS: u32 = 200;
+/// Groups, places and names inside each other.
+pub const GROUPS: u32 = 400;
 
 /// What has been used up.
 #[derive(Default)]
@@ -22,58 +22,54 @@ pub struct Budget {
     turns: u64,
     elements: u64,
     depth: u32,
-    /// A loop of loops is reported once, and everything ends.
-    exhausted: bool,
+    /// The limits that were passed; each is reported once.
+    passed: Vec<&'static str>,
 }
 
 impl<'a> Resolver<'a> {
-    /// Notes that `count` more objects come into the picture. `false`: too many.
+    /// Notes that one more object comes into the picture. `false`: too many.
     pub(super) fn spend_object(&mut self, used: Span) -> bool {
         self.budget.objects += 1;
-        let error =
-            Error::Budget { what: "objects in the picture", limit: OBJECTS, used, help: "place fewer" };
-        self.within(self.budget.objects <= OBJECTS, error)
+        self.budget.objects <= OBJECTS || self.over("objects in the picture", OBJECTS, used, "place fewer")
     }
 
     /// Notes that a loop will take so many turns. `false`: too many, and then it takes none.
     pub(super) fn spend_turns(&mut self, turns: u64, used: Span) -> bool {
         self.budget.turns = self.budget.turns.saturating_add(turns);
-        let help = "make the range shorter";
-        let error = Error::Budget { what: "turns of loops", limit: TURNS, used, help };
-        self.within(self.budget.turns <= TURNS, error)
+        self.budget.turns <= TURNS || self.over("turns of loops", TURNS, used, "make the range shorter")
     }
 
     /// Notes that a list grows. `false`: too many.
     pub(super) fn spend_elements(&mut self, count: usize, used: Span) -> bool {
         self.budget.elements += count as u64;
-        let help = "make the lists shorter";
-        let error = Error::Budget { what: "elements of lists", limit: ELEMENTS, used, help };
-        self.within(self.budget.elements <= ELEMENTS, error)
+        self.budget.elements <= ELEMENTS
+            || self.over("elements of lists", ELEMENTS, used, "make the lists shorter")
     }
 
-    /// Whether a limit was passed: then there is no point in going on.
-    pub(super) fn exhausted(&self) -> bool {
-        self.budget.exhausted
-    }
-
-    fn within(&mut self, fits: bool, error: Error) -> bool {
-        if !fits && !self.budget.exhausted {
-            self.budget.exhausted = true;
-            self.report(error);
-        }
-        fits
+    /// Whether the picture is full: then there is no point in going on.
+    pub(super) fn is_full(&self) -> bool {
+        self.budget.objects > OBJECTS
     }
 
     /// Does `work` one level deeper, or gives poison when that is too deep.
     pub(super) fn deeper(&mut self, used: Span, work: impl FnOnce(&mut Self) -> Value<'a>) -> Value<'a> {
         if self.budget.depth >= DEPTH {
             let help = "name parts of it with `let`, above where they are used";
-            let limit = u64::from(DEPTH);
-            return self.poison(Error::Budget { what: "values inside values", limit, used, help });
+            self.over("values inside values", DEPTH.into(), used, help);
+            return Value::Poison;
         }
         self.budget.depth += 1;
         let value = work(self);
         self.budget.depth -= 1;
         value
+    }
+
+    /// Reports, the first time, that a limit was passed. Always `false`: what asked for more does not get it.
+    pub(super) fn over(&mut self, what: &'static str, limit: u64, used: Span, help: &'static str) -> bool {
+        if !self.budget.passed.contains(&what) {
+            self.budget.passed.push(what);
+            self.report(Error::Budget { what, limit, used, help });
+        }
+        false
     }
 }

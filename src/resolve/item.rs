@@ -70,14 +70,24 @@ impl<'a> Resolver<'a> {
                     "move it to the top level",
                 );
             }
-            // Definitions are evaluated when something asks for them.
+            // In source order, so that a long chain of definitions is no deep one.
+            ItemKind::Let { name, .. } => self.evaluate_now(name, env),
+            // Other definitions are evaluated when something asks for them.
             ItemKind::Units(_)
             | ItemKind::Include { .. }
             | ItemKind::Import { .. }
             | ItemKind::Param { .. }
-            | ItemKind::Let { .. }
             | ItemKind::Fn(_)
             | ItemKind::Poison => {}
+        }
+    }
+
+    /// Evaluates the definition that this name begins, if it is the one that holds.
+    fn evaluate_now(&mut self, name: &'a Name, env: &Env<'a>) {
+        if let Some((scope, definition)) = env.find(name)
+            && definition.span == name.span
+        {
+            self.value_of(&scope, &definition);
         }
     }
 
@@ -126,7 +136,7 @@ impl<'a> Resolver<'a> {
     fn for_each(&mut self, name: &'a Name, range: &'a Expr, body: &'a Block, env: &Env<'a>, sink: &mut Sink) {
         self.repeat(name, range, env, |this, turn| {
             this.block_items(body, turn, sink);
-            !this.exhausted()
+            !this.is_full()
         });
     }
 

@@ -243,7 +243,11 @@ impl<'a> Resolver<'a> {
             }),
             Kind::Import(Some(file)) => {
                 self.definitions_only(file);
-                Value::Module(self.root(file))
+                let root = self.root(file);
+                for definition in root.in_order() {
+                    self.value_of(&root, &definition);
+                }
+                Value::Module(root)
             }
             Kind::Instance(place, span) => {
                 self.place(place, span, scope, Some(definition)).map_or(Value::Poison, Value::Object)

@@ -88,12 +88,7 @@ impl<'a> Resolver<'a> {
         node.depth = 1 + node.inner().iter().map(|inner| inner.depth).max().unwrap_or(0);
         if node.depth > GROUPS {
             let help = "put fewer groups into each other";
-            self.report(Error::Budget {
-                what: "objects inside objects",
-                limit: GROUPS.into(),
-                used: span,
-                help,
-            });
+            self.over("objects inside objects", GROUPS.into(), span, help);
             return None;
         }
         Some(Rc::new(node))

@@ -8,9 +8,9 @@ const RENDER: &[Field] = &[
     field("method", METHODS, "Path tracing, photon mapping, or whichever suits.").or_word("auto"),
     field("stop", Type::Stop, "When it is done: `samples`, `passes`, `time` or `error`, joined by `or`."),
     field("depth", Type::Int, "The most vertices of a path.")
-        .or(32.0)
+        .or(64.0)
         .within(Range::closed(1.0, 65_535.0))
-        .like("32"),
+        .like("64"),
     field("seed", Type::Int, "Chooses the random numbers.")
         .or(0.0)
         .within(Range::closed(0.0, 9.0e15))
