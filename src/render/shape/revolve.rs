@@ -2,6 +2,9 @@
 //!
 //! Eliminating the ray parameter leaves one polynomial of degree 6 in the profile's parameter; all its roots are
 //! isolated (see [`super::roots`]). Plain Newton from a few starts, the usual way, misses roots and finds strangers.
+//!
+//! Most pieces are settled before that: their ring is missed, or the signs of the polynomial's Bernstein coefficients
+//! leave room for no root, or for exactly one (the variation diminishing property: Farin 2002, section 6.3).
 
 use super::Profile;
 use super::roots::{self, Roots};
@@ -15,9 +18,15 @@ const LEVEL: f64 = 1e-10;
 /// Above this rise the height gives the ray parameter with all digits that single precision needs.
 const STEEP: f64 = 1e-3;
 
+/// Bernstein coefficients nearer to 0 than this share of the squared size may have either sign: a thousand roundings.
+const SIGN_SLACK: f64 = 1e-13;
+
 /// A profile, prepared for rays.
 pub struct Revolve {
+    /// [`CUTS`] for each piece of the profile.
     pieces: Vec<Piece>,
+    /// The ring around each piece of the profile, before it was cut.
+    rings: Vec<Ring>,
     /// The middle of the shape's heights, and its largest extent.
     middle: f64,
     size: f64,
@@ -30,9 +39,25 @@ struct Piece {
     /// Coefficients of rising powers.
     radius: [f64; 4],
     height: [f64; 4],
-    /// The lowest and highest of its radii and heights.
+    ring: Ring,
+    /// Bernstein coefficients of degree 6, heights counted from the shape's middle.
+    bernstein: Bernstein,
+}
+
+/// The space between two radii and two heights.
+#[derive(Clone, Copy)]
+struct Ring {
+    /// The lowest radius and height.
     low: DVec2,
+    /// The highest.
     high: DVec2,
+}
+
+/// What the polynomial of degree 6 is made of, in the Bernstein basis of that degree.
+struct Bernstein {
+    radius2: [f64; 7],
+    height2: [f64; 7],
+    height: [f64; 7],
 }
 
 /// A ray of unit direction from the point of its line that is nearest to the shape's middle.
@@ -43,16 +68,23 @@ struct AxisRay {
     a: f64,
     b: f64,
     c: f64,
+    /// The height of `o` above the shape's middle.
+    o_from_middle: f64,
+    /// 1 / d.y, and the parameter nearest to the axis (any, for an upright ray).
+    rise_inverse: f64,
+    nearest_to_axis: f64,
 }
 
 impl Revolve {
     /// Prepares a profile.
     pub fn new(profile: &Profile) -> Self {
-        let pieces: Vec<_> = profile.pieces.iter().flat_map(cut).map(Piece::new).collect();
-        let low = pieces.iter().fold(DVec2::INFINITY, |low, piece| low.min(piece.low));
-        let high = pieces.iter().fold(DVec2::NEG_INFINITY, |high, piece| high.max(piece.high));
+        let rings: Vec<_> = profile.pieces.iter().map(|control| Ring::around(control)).collect();
+        let low = rings.iter().fold(DVec2::INFINITY, |low, ring| low.min(ring.low));
+        let high = rings.iter().fold(DVec2::NEG_INFINITY, |high, ring| high.max(ring.high));
         let size = (high.y - low.y).max(high.x).max(0.0);
-        Self { pieces, middle: 0.5 * (low.y + high.y), size }
+        let middle = 0.5 * (low.y + high.y);
+        let cuts = profile.pieces.iter().flat_map(cut);
+        Self { pieces: cuts.map(|control| Piece::new(control, middle)).collect(), rings, middle, size }
     }
 
     /// The largest extent, to which rounding errors of the surface are in proportion.
@@ -65,17 +97,19 @@ impl Revolve {
         let length = d.length();
         let d = d / length;
         let shift = -(o - DVec3::Y * self.middle).dot(d);
-        let ray = AxisRay::new(o + d * shift, d);
+        let ray = AxisRay::new(o + d * shift, d, self.middle);
         let mut first: Option<(f32, Vec2)> = None;
-        for (i, piece) in self.pieces.iter().enumerate().filter(|(_, piece)| piece.ring_met(&ray, self.size))
-        {
-            piece.intersect(&ray, |s, u| {
-                if let Some(t) = within((s + shift) / length)
-                    && first.is_none_or(|(best, _)| t < best)
-                {
-                    first = Some((t, Vec2::new(u as f32, i as f32)));
-                }
-            });
+        let met = self.rings.iter().zip(self.pieces.chunks(CUTS)).enumerate();
+        for (i, (_, cuts)) in met.filter(|(_, (ring, _))| ring.met(&ray, self.size)) {
+            for (j, piece) in cuts.iter().enumerate().filter(|(_, piece)| piece.ring.met(&ray, self.size)) {
+                piece.intersect(&ray, self.size, |s, u| {
+                    if let Some(t) = within((s + shift) / length)
+                        && first.is_none_or(|(best, _)| t < best)
+                    {
+                        first = Some((t, Vec2::new(u as f32, (i * CUTS + j) as f32)));
+                    }
+                });
+            }
         }
         first
     }
@@ -114,16 +148,85 @@ impl Revolve {
     }
 }
 
+impl Ring {
+    /// The ring that holds the turn of a curve with these control points.
+    fn around(control: &[DVec2; 4]) -> Self {
+        Self {
+            low: control.iter().copied().fold(DVec2::INFINITY, DVec2::min),
+            high: control.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max),
+        }
+    }
+
+    /// Whether the line of `ray` meets the ring.
+    fn met(&self, ray: &AxisRay, size: f64) -> bool {
+        let slack = 1e-12 * size;
+        if ray.d.y.abs() < LEVEL {
+            let nearest = ray.c - ray.b * ray.b / ray.a;
+            let inside = self.low.y - slack <= ray.o.y && ray.o.y <= self.high.y + slack;
+            return inside && nearest <= (self.high.x + slack) * (self.high.x + slack);
+        }
+        let crossing =
+            [self.low.y - slack, self.high.y + slack].map(|height| (height - ray.o.y) * ray.rise_inverse);
+        let [enter, leave] = [crossing[0].min(crossing[1]), crossing[0].max(crossing[1])];
+        let (inner, outer) = (self.low.x - slack, self.high.x + slack);
+        let nearest = ray.nearest_to_axis.max(enter).min(leave);
+        ray.axis_distance2(nearest) <= outer * outer * (1.0 + 1e-12)
+            && (inner <= 0.0
+                || ray.axis_distance2(enter).max(ray.axis_distance2(leave)) >= inner * inner * (1.0 - 1e-12))
+    }
+}
+
+impl Bernstein {
+    fn new(control: [DVec2; 4], middle: f64) -> Self {
+        let radius = control.map(|p| p.x);
+        let height = control.map(|p| p.y - middle);
+        // The constant 1 is the cubic whose coefficients are all 1, so this raises the degree of the height to 6.
+        Self {
+            radius2: product(&radius, &radius),
+            height2: product(&height, &height),
+            height: product(&height, &[1.0; 4]),
+        }
+    }
+
+    /// How often the polynomial's coefficients change sign: it has as many roots in the piece, or fewer by an even number.
+    /// `None` where rounding leaves a sign open.
+    fn sign_changes(&self, ray: &AxisRay, size: f64) -> Option<usize> {
+        let (dy2, oy) = (ray.d.y * ray.d.y, ray.o_from_middle);
+        let coefficients: [f64; 7] = std::array::from_fn(|k| {
+            let above = self.height[k] - oy;
+            let above2 = self.height2[k] - oy * (self.height[k] + above);
+            dy2 * (self.radius2[k] - ray.c) - ray.a * above2 - 2.0 * ray.d.y * ray.b * above
+        });
+        let slack = SIGN_SLACK * size * size;
+        let certain = coefficients.iter().fold(true, |certain, c| certain & (c.abs() > slack));
+        let changes = coefficients.windows(2).map(|pair| usize::from((pair[0] < 0.0) != (pair[1] < 0.0)));
+        certain.then(|| changes.sum())
+    }
+}
+
+/// The product of two cubics, all in the Bernstein basis (Farin 2002, section 6.10).
+fn product(p: &[f64; 4], q: &[f64; 4]) -> [f64; 7] {
+    const CHOOSE_3: [f64; 4] = [1.0, 3.0, 3.0, 1.0];
+    const CHOOSE_6: [f64; 7] = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0];
+    let mut out = [0.0; 7];
+    for i in 0..4 {
+        for j in 0..4 {
+            out[i + j] += CHOOSE_3[i] * CHOOSE_3[j] * p[i] * q[j] / CHOOSE_6[i + j];
+        }
+    }
+    out
+}
+
 impl Piece {
-    fn new(control: [DVec2; 4]) -> Self {
+    fn new(control: [DVec2; 4], middle: f64) -> Self {
         let [p0, p1, p2, p3] = control;
         let powers = [p0, (p1 - p0) * 3.0, (p0 - p1 * 2.0 + p2) * 3.0, p3 - p0 + (p1 - p2) * 3.0];
         Self {
             control,
             radius: powers.map(|p| p.x),
             height: powers.map(|p| p.y),
-            low: control.into_iter().fold(DVec2::INFINITY, DVec2::min),
-            high: control.into_iter().fold(DVec2::NEG_INFINITY, DVec2::max),
+            ring: Ring::around(&control),
+            bernstein: Bernstein::new(control, middle),
         }
     }
 
@@ -136,30 +239,13 @@ impl Piece {
         const CHORD: f64 = 1e-3;
         let slope = DVec2::new(roots::evaluate(&self.radius, u).1, roots::evaluate(&self.height, u).1);
         let chord = || self.at((u + CHORD).min(1.0)) - self.at((u - CHORD).max(0.0));
-        let size = (self.high - self.low).length();
+        let size = (self.ring.high - self.ring.low).length();
         let travel = if slope.length() > CHORD * size { slope } else { chord() };
         DVec2::new(travel.y, -travel.x).try_normalize().unwrap_or(DVec2::Y)
     }
 
-    /// Whether the line of `ray` meets the ring between the piece's extreme radii and heights.
-    fn ring_met(&self, ray: &AxisRay, size: f64) -> bool {
-        let slack = 1e-12 * size;
-        let crossing = [self.low.y - slack, self.high.y + slack].map(|height| (height - ray.o.y) / ray.d.y);
-        let [enter, leave] = [crossing[0].min(crossing[1]), crossing[0].max(crossing[1])];
-        if ray.d.y.abs() < LEVEL {
-            let nearest = ray.c - ray.b * ray.b / ray.a;
-            let inside = self.low.y - slack <= ray.o.y && ray.o.y <= self.high.y + slack;
-            return inside && nearest <= (self.high.x + slack) * (self.high.x + slack);
-        }
-        let nearest = if ray.a > 0.0 { (-ray.b / ray.a).clamp(enter, leave) } else { enter };
-        let (inner, outer) = (self.low.x - slack, self.high.x + slack);
-        let farthest = ray.axis_distance2(enter).max(ray.axis_distance2(leave));
-        ray.axis_distance2(nearest) <= outer * outer * (1.0 + 1e-12)
-            && (inner <= 0.0 || farthest >= inner * inner * (1.0 - 1e-12))
-    }
-
     /// Calls `found` with the ray parameter and the profile parameter of each intersection.
-    fn intersect(&self, ray: &AxisRay, mut found: impl FnMut(f64, f64)) {
+    fn intersect(&self, ray: &AxisRay, size: f64, mut found: impl FnMut(f64, f64)) {
         if ray.d.y.abs() < LEVEL {
             let mut height = self.height;
             height[0] -= ray.o.y;
@@ -170,7 +256,7 @@ impl Piece {
             }
             return;
         }
-        for &u in self.roots(ray).as_slice() {
+        for &u in self.roots(ray, size).as_slice() {
             let at = self.at(u);
             let by_height = (at.y - ray.o.y) / ray.d.y;
             let by_radius = ray.at_radius(at.x).into_iter().flatten();
@@ -183,7 +269,11 @@ impl Piece {
     /// Where `dy²·x² = (dy·ox + h·dx)² + (dy·oz + h·dz)²` with radius x, height y and h = y − oy.
     ///
     /// Turning points come from the expanded polynomial, signs from the formula as it stands, which does not cancel.
-    fn roots(&self, ray: &AxisRay) -> Roots {
+    fn roots(&self, ray: &AxisRay, size: f64) -> Roots {
+        let changes = self.bernstein.sign_changes(ray, size);
+        if changes == Some(0) {
+            return Roots::default();
+        }
         let (o, d) = (ray.o, ray.d);
         let formula = |at: DVec2| {
             let h = at.y - o.y;
@@ -196,6 +286,10 @@ impl Piece {
             let (f, fx, fz) = formula(DVec2::new(x, y));
             (f, 2.0 * (d.y * d.y * x * x_slope - y_slope * (fx * d.x + fz * d.z)))
         };
+        let ends = [formula(self.control[0]).0, formula(self.control[3]).0];
+        if changes == Some(1) {
+            return roots::monotone(Roots::default(), ends, value);
+        }
         let mut height = self.height;
         height[0] -= o.y;
         let (radius2, height2) = (square(&self.radius), square(&height));
@@ -204,15 +298,15 @@ impl Piece {
             expanded[i] -= 2.0 * d.y * ray.b * h;
         }
         expanded[0] -= d.y * d.y * ray.c;
-        let ends = [formula(self.control[0]).0, formula(self.control[3]).0];
         roots::monotone(roots::critical_points(&expanded), ends, value)
     }
 }
 
 impl AxisRay {
-    fn new(o: DVec3, d: DVec3) -> Self {
+    fn new(o: DVec3, d: DVec3, middle: f64) -> Self {
         let (a, b, c) = (d.x * d.x + d.z * d.z, o.x * d.x + o.z * d.z, o.x * o.x + o.z * o.z);
-        Self { o, d, a, b, c }
+        let nearest_to_axis = if a > 0.0 { -b / a } else { 0.0 };
+        Self { o, d, a, b, c, o_from_middle: o.y - middle, rise_inverse: 1.0 / d.y, nearest_to_axis }
     }
 
     /// The squared distance from the axis.
