@@ -90,6 +90,9 @@ pub fn run(args: &RenderArgs) -> Exit {
     session.report(&args.messages, false);
     let Some(ready) = ready.filter(|_| good) else { return Exit::SceneWrong };
 
+    if let Some(path) = overwritten(args, &targets, &ready.inputs) {
+        return fail(format_args!("the scene reads `{}`: write elsewhere with `-o`", path.display()));
+    }
     interrupt::listen();
     let settings = ready.settings(args);
     let bar = Bar::new(settings.stop, args.messages.quiet);
@@ -113,6 +116,8 @@ struct Ready {
     lowered: Lowered,
     camera: ir::Camera,
     render: ir::Render,
+    /// Every file that the scene is made of.
+    inputs: Vec<PathBuf>,
     compile_seconds: f64,
     build_seconds: f64,
 }
@@ -142,7 +147,9 @@ fn make_ready(
     let lowered = crate::lower::lower(&loaded, &plan, &camera, &session.files, &mut session.problems)?;
     let build_seconds = start.elapsed().as_secs_f64() - compiled;
     let render = checked.render.clone();
-    Some(Ready { plan, lowered, camera, render, compile_seconds: compiled, build_seconds })
+    let texts = session.sources.files().iter().map(|file| file.path.clone());
+    let inputs = texts.chain(loaded.files).collect();
+    Some(Ready { plan, lowered, camera, render, inputs, compile_seconds: compiled, build_seconds })
 }
 
 impl Ready {
@@ -191,6 +198,13 @@ fn open_targets(args: &RenderArgs) -> Result<Vec<Target>, String> {
         writable(report)?;
     }
     paths.iter().map(|path| Target::open(path).map_err(|error| error.to_string())).collect()
+}
+
+/// The output that would replace a file of the scene.
+fn overwritten<'a>(args: &'a RenderArgs, targets: &'a [Target], inputs: &[PathBuf]) -> Option<&'a Path> {
+    let inputs: Vec<PathBuf> = inputs.iter().filter_map(|path| path.canonicalize().ok()).collect();
+    let outputs = targets.iter().map(Target::path).chain(args.report.as_deref());
+    outputs.into_iter().find(|path| path.canonicalize().is_ok_and(|path| inputs.contains(&path)))
 }
 
 fn writable(report: &Path) -> Result<(), String> {

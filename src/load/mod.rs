@@ -21,6 +21,8 @@ pub struct Loaded<'a> {
     pub scene: &'a Scene,
     meshes: FxHashMap<usize, Arc<LoadedMesh>>,
     pictures: FxHashMap<usize, PictureFile>,
+    /// Every file that was read, so that no output replaces one.
+    pub files: Vec<PathBuf>,
 }
 
 /// A mesh file that was read.
@@ -69,7 +71,12 @@ pub fn load<'a>(
         sources,
         files,
         problems,
-        loaded: Loaded { scene, meshes: FxHashMap::default(), pictures: FxHashMap::default() },
+        loaded: Loaded {
+            scene,
+            meshes: FxHashMap::default(),
+            pictures: FxHashMap::default(),
+            files: Vec::new(),
+        },
         models: FxHashMap::default(),
         seen_shapes: FxHashSet::default(),
         seen_materials: FxHashSet::default(),
@@ -157,6 +164,7 @@ impl Loader<'_, '_> {
         let found = self.files.locate(mesh, name).ok().and_then(|path| {
             let bytes = self.files.read(&path).ok()?;
             let (width, height) = picture::size(&bytes).ok()?;
+            self.loaded.files.push(path.clone());
             Some(PictureFile { path, name: name.to_owned(), span: what.span, width, height })
         });
         if found.is_none() {
@@ -290,6 +298,7 @@ impl Loader<'_, '_> {
     }
 
     fn read(&mut self, path: &Path, what: &Wanted<'_>) -> Option<Vec<u8>> {
+        self.loaded.files.push(path.to_owned());
         self.files
             .read(path)
             .map_err(|error| {

@@ -118,10 +118,11 @@ impl Triangles {
     /// One ring of vertices; its last lies on its first, so that u can end at 1.
     fn add_ring(&mut self, p: DVec2, travel: DVec2, v: f64, around: u32) {
         for j in 0..=around {
-            let (sin, cos) = libm::sincos(TAU * f64::from(j % around) / f64::from(around));
+            // As on exact shapes, u = 1/2 faces +z and grows to the right seen from outside.
+            let (sin, cos) = libm::sincos(TAU * (f64::from(j % around) / f64::from(around) - 0.5));
             let radius = p.x.max(0.0); // a fitted curve may end a rounding below the axis
-            let position = DVec3::new(radius * cos, p.y, radius * sin);
-            let normal = DVec3::new(travel.y * cos, -travel.x, travel.y * sin);
+            let position = DVec3::new(radius * sin, p.y, radius * cos);
+            let normal = DVec3::new(travel.y * sin, -travel.x, travel.y * cos);
             let u = f64::from(j) / f64::from(around);
             self.add_vertex(position, normal, Vec2::new(u as f32, v as f32));
         }
@@ -136,10 +137,10 @@ impl Triangles {
                 // On the axis a whole edge is one point, and one of the two triangles vanishes.
                 let same = |x: u32, y: u32| self.positions[x as usize] == self.positions[y as usize];
                 if !same(b, c) && !same(a, b) {
-                    self.indices.push([a, b, c]);
+                    self.indices.push([a, c, b]);
                 }
                 if !same(a, d) && !same(d, c) {
-                    self.indices.push([a, c, d]);
+                    self.indices.push([a, d, c]);
                 }
             }
         }

@@ -59,7 +59,7 @@ pub struct Solid {
 
 /// The exact shapes, each in the frame where it is simplest.
 pub enum SolidKind {
-    /// The unit sphere about the origin; normals outwards; u by longitude from +x towards +z about +y, v from the south pole.
+    /// The unit sphere about the origin; normals outwards; u by longitude, 1/2 at +z, v from the south pole.
     Sphere,
     /// The unit disk in the plane z = 0; normal +z; uv = (x, y) mapped from [−1, 1]² to [0, 1]².
     Disk,

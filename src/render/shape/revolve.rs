@@ -8,6 +8,7 @@
 
 use super::Profile;
 use super::roots::{self, Roots};
+use super::sphere;
 use crate::math::{DVec2, DVec3, Vec2, float};
 use std::f64::consts::{PI, TAU};
 
@@ -124,9 +125,9 @@ impl Revolve {
         let at = piece.at(u);
         let normal = piece.normal(u);
         let turned = |p: DVec2| DVec3::new(p.x * around.x, p.y, p.x * around.y);
-        let longitude = float::atan2(around.y as f32, around.x as f32) / std::f32::consts::TAU;
+        let longitude = sphere::longitude(around.x as f32, around.y as f32);
         let v = (index as f32 + parameters.x) / self.pieces.len() as f32;
-        (turned(at), turned(normal), Vec2::new(if longitude < 0.0 { longitude + 1.0 } else { longitude }, v))
+        (turned(at), turned(normal), Vec2::new(longitude, v))
     }
 
     /// Small parts of the surface, each by its unit normal and area: together they make up all of it.

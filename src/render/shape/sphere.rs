@@ -22,16 +22,21 @@ pub fn intersect(o: DVec3, d: DVec3) -> Option<[f64; 2]> {
     Some(if t0 <= t1 { [t0, t1] } else { [t1, t0] })
 }
 
-/// The texture point: u by longitude from +x towards +z in [0, 1), v from the south pole in [0, 1].
+/// The texture point: u by [`longitude`], v from the south pole in [0, 1].
 pub fn uv(p: DVec3) -> Vec2 {
     let p = p.as_vec3();
-    let longitude = float::atan2(p.z, p.x);
-    let u = if longitude < 0.0 { (longitude + TAU) / TAU } else { longitude / TAU };
     let v = (float::atan2((p.x * p.x + p.z * p.z).sqrt(), -p.y) * FRAC_1_PI).min(1.0);
-    Vec2::new(if u < 1.0 { u } else { 0.0 }, v)
+    Vec2::new(longitude(p.x, p.z), v)
+}
+
+/// How far around the y axis a point lies, in [0, 1): 1/2 at +z, and growing to the right for who looks from outside, so
+/// that the middle of a picture faces +z and its sides meet behind.
+pub fn longitude(x: f32, z: f32) -> f32 {
+    let u = 0.5 + float::atan2(x, z) / TAU;
+    if u < 1.0 { u } else { 0.0 }
 }
 
 /// The direction in which the longitude grows; zero at the poles.
 pub fn tangent(p: DVec3) -> DVec3 {
-    DVec3::new(-p.z, 0.0, p.x)
+    DVec3::new(p.z, 0.0, -p.x)
 }
