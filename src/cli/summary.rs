@@ -45,7 +45,11 @@ impl Summary<'_> {
         );
         let photons = stats.counters.photons;
         let _ = write!(out, "  rays    {}", count(stats.counters.rays));
-        let _ = if photons > 0 { writeln!(out, ", {} photons", count(photons)) } else { writeln!(out) };
+        let _ = if photons > 0 {
+            writeln!(out, ", {} photons, {} stored", count(photons), count(stats.counters.stored_photons))
+        } else {
+            writeln!(out)
+        };
         let _ = writeln!(out, "  error   {}", self.error_text());
         if stats.bad_samples > 0 {
             let places = self.outcome.film.bad_samples().iter();
@@ -91,6 +95,7 @@ impl Summary<'_> {
             "samples": stats.samples,
             "rays": stats.counters.rays,
             "photons": stats.counters.photons,
+            "stored_photons": stats.counters.stored_photons,
             "bad_samples": stats.bad_samples,
             "error": self.outcome.error.map(|e| json!({
                 "rel": e.error, "low": e.low, "high": e.high, "trimmed": e.trimmed,

@@ -49,11 +49,14 @@ pub struct Counters {
     pub rays: u64,
     /// Photons emitted.
     pub photons: u64,
+    /// Photons left on surfaces.
+    pub stored_photons: u64,
 }
 
 impl AddAssign for Counters {
     fn add_assign(&mut self, other: Self) {
         self.rays += other.rays;
         self.photons += other.photons;
+        self.stored_photons += other.stored_photons;
     }
 }

@@ -42,8 +42,9 @@ pub fn trace_photons(world: &World, pass: Pass, count: u32, max_depth: u32) -> (
         })
         .collect();
     let rays = chunks.iter().map(|(_, rays)| rays).sum();
-    let photons = chunks.into_iter().flat_map(|(photons, _)| photons).collect();
-    (photons, Counters { rays, photons: count.into() })
+    let photons: Vec<Photon> = chunks.into_iter().flat_map(|(photons, _)| photons).collect();
+    let stored_photons = photons.len() as u64;
+    (photons, Counters { rays, photons: count.into(), stored_photons })
 }
 
 /// Follows photons one after the other.
