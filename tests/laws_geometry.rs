@@ -578,3 +578,39 @@ fn points_drawn_towards_a_viewer_have_the_density_they_claim() {
         );
     }
 }
+
+#[test]
+fn nothing_lies_between_a_floor_and_the_sides_of_a_small_box_that_face_it() {
+    let mut random = Random(26);
+    let (positions, triangles) = cube(1);
+    for (scale, place) in
+        [(0.04, Vec3::new(0.3, 2.1, -0.2)), (0.04, Vec3::ZERO), (1e-3, Vec3::new(7.0, -3.0, 2.0))]
+    {
+        let placed = positions.iter().map(|&p| p * scale + place).collect();
+        let floor = solid(
+            SolidKind::Plane,
+            DAffine3::from_rotation_x(-std::f64::consts::FRAC_PI_2)
+                * DAffine3::from_translation(DVec3::Z * -4.0),
+        );
+        let geometry = Geometry::build(vec![mesh(placed, triangles.clone())], vec![floor]);
+        for _ in 0..20_000 {
+            let from = Vec3::new(random.unit() * 12.0 - 6.0, 3.0, random.unit() * 12.0 - 6.0);
+            let down = Ray::new(from + Vec3::Y * 2.0, Vec3::NEG_Y);
+            let Some(hit) = geometry.closest_hit(&down).filter(|hit| hit.prim.0 >= triangles.len() as u32)
+            else {
+                continue;
+            };
+            let surface = geometry.surface_point(&down, &hit);
+            let prim = PrimId((random.unit() * triangles.len() as f32) as u32);
+            let end = geometry.sample_area(prim, Vec2::new(random.unit(), random.unit()));
+            if end.n.dot(surface.p - end.p) > 0.0 {
+                assert!(
+                    !geometry.any_hit(&surface.spawn_to(end.p, end.p_error, end.n)),
+                    "{} to {}",
+                    surface.p,
+                    end.p
+                );
+            }
+        }
+    }
+}

@@ -90,7 +90,7 @@ pub enum ObjError {
         reason: String,
     },
     /// NaN or infinity.
-    #[error("{count} of its vertices are not finite numbers")]
+    #[error("{count} of its vertices are not finite numbers in single precision")]
     NotFinite {
         /// How many.
         count: usize,
@@ -98,6 +98,12 @@ pub enum ObjError {
     /// No faces.
     #[error("it has no faces")]
     Empty,
+    /// Faces, but none that could be seen.
+    #[error("all of its {count} triangles have no area")]
+    Flat {
+        /// How many.
+        count: usize,
+    },
 }
 
 /// Reads an OBJ file. `open` gives the bytes of an MTL file that it names.
@@ -113,8 +119,9 @@ pub fn read(bytes: &[u8], open: impl Fn(&str) -> Option<Vec<u8>>) -> Result<Mode
     let options =
         LoadOptions { single_index: true, ignore_points: true, ignore_lines: true, ..Default::default() };
     let table = Cell::new(name_table(&names)); // taken by our own `mtllib`, which comes first
-    let (models, _) = tobj::load_obj_buf(&mut reader, &options, |_| Ok(table.take()))
-        .map_err(|error| ObjError::Line { line: line.get().max(1), reason: reason(error) })?;
+    let (models, _) = tobj::load_obj_buf(&mut reader, &options, |_| Ok(table.take())).map_err(|error| {
+        ObjError::Line { line: bad_face(&text, error).unwrap_or(line.get()).max(1), reason: reason(error) }
+    })?;
 
     let mut model = Model::default();
     (model.materials, model.notes.missing_mtl) = materials(&text, &names, open);
@@ -124,7 +131,34 @@ pub fn read(bytes: &[u8], open: impl Fn(&str) -> Option<Vec<u8>>) -> Result<Mode
             model.parts.push(part);
         }
     }
-    if model.parts.is_empty() { Err(ObjError::Empty) } else { Ok(model) }
+    match model.notes.degenerate {
+        _ if !model.parts.is_empty() => Ok(model),
+        0 => Err(ObjError::Empty),
+        count => Err(ObjError::Flat { count }),
+    }
+}
+
+/// The line (from 1) of the first face with an index out of bounds: `tobj` judges faces only when their group is done.
+fn bad_face(text: &[u8], error: LoadError) -> Option<usize> {
+    let (keyword, slot) = match error {
+        LoadError::FaceVertexOutOfBounds => ("v", 0),
+        LoadError::FaceTexCoordOutOfBounds => ("vt", 1),
+        LoadError::FaceNormalOutOfBounds => ("vn", 2),
+        _ => return None,
+    };
+    let total = words_after(text, keyword).count() as i64;
+    let mut so_far = 0;
+    let text = String::from_utf8_lossy(text);
+    text.lines()
+        .position(|line| {
+            let mut words = line.split_whitespace();
+            let head = words.next().unwrap_or("");
+            so_far += i64::from(head == keyword);
+            let index = |corner: &str| corner.split('/').nth(slot)?.parse::<i64>().ok();
+            let outside = |index: i64| index == 0 || index > total || index < -so_far;
+            head == "f" && words.filter_map(index).any(outside)
+        })
+        .map(|line| line + 1)
 }
 
 /// The text without comments, with continued lines joined; line ends stay where they are.
@@ -326,8 +360,8 @@ mod tests {
     fn an_error_names_its_line() {
         let error = obj("v 0 0 0\nv 1 0 0\n# a comment\nv 0 one 0\nf 1 2 3\n").unwrap_err();
         assert!(matches!(error, ObjError::Line { line: 4, .. }), "{error}");
-        let error = obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n").unwrap_err();
-        assert!(matches!(error, ObjError::Line { line: 4.., .. }), "{error}");
+        let error = obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\nf 1 2 3\n").unwrap_err();
+        assert!(matches!(error, ObjError::Line { line: 5, .. }), "{error}");
     }
 
     #[test]

@@ -104,12 +104,19 @@ pub fn seconds(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "write a time such as `90s` or `5min`".to_owned())
 }
 
-/// `1%` or `0.01`.
+/// `1%` or `0.01`; 1 and more without a sign is likely to be meant in percent.
 pub fn share(text: &str) -> Result<f64, String> {
     let (number, factor) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
-    positive(number)
-        .map(|value| value * factor)
-        .ok_or_else(|| "write an error such as `1%` or `0.01`".to_owned())
+    match positive(number) {
+        Some(value) if factor == 1.0 && value >= 1.0 => Err(format!("write `{text}%`, or a share below 1")),
+        Some(value) => Ok(value * factor),
+        None => Err("write an error such as `1%` or `0.01`".to_owned()),
+    }
+}
+
+/// A whole number from 0.
+pub fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "a seed is a whole number from 0 to 18446744073709551615".to_owned())
 }
 
 fn positive(text: &str) -> Option<f64> {

@@ -30,7 +30,11 @@ pub fn run(args: &CheckArgs) -> Exit {
             }
         };
         if let Some(checked) = session.compile() {
-            let _ = crate::load::load(&checked, &session.sources, &session.files, &mut session.problems);
+            let loaded = crate::load::load(&checked, &session.sources, &session.files, &mut session.problems);
+            if let Some(loaded) = loaded.filter(|_| !session.problems.has_errors()) {
+                let plan = crate::plan::plan(&loaded, checked.cameras.first(), None);
+                crate::plan::warn(&plan, &loaded, &mut session.problems);
+            }
         }
         if !session.is_good() && exit == Exit::Done {
             exit = Exit::SceneWrong;

@@ -19,7 +19,7 @@ use std::process::ExitCode;
 
 /// A scene language that shows every mistake, and a renderer that shows its error.
 #[derive(Parser, Debug)]
-#[command(name = "snell", version, disable_help_subcommand = true, max_term_width = 100)]
+#[command(name = "snell", version, max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
     command: Command,

@@ -18,8 +18,14 @@ const FIRST_SCENE: &str = include_str!("first.snell");
 
 /// Writes the first scene, unless the file is already there.
 pub fn run(args: &NewArgs) -> Exit {
-    let path =
-        if args.name.extension().is_some() { args.name.clone() } else { args.name.with_extension("snell") };
+    let mut path = args.name.clone();
+    if path.extension().is_none_or(|extension| extension != "snell") {
+        path.as_mut_os_string().push(".snell");
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+        return fail(format_args!("there is no folder `{}`", folder.display()));
+    }
     let made = OpenOptions::new().write(true).create_new(true).open(&path);
     if let Err(error) = made.and_then(|mut file| file.write_all(FIRST_SCENE.as_bytes())) {
         return match error.kind() {
@@ -27,6 +33,8 @@ pub fn run(args: &NewArgs) -> Exit {
             _ => fail(format_args!("`{}` cannot be written: {error}", path.display())),
         };
     }
-    note(format_args!("made {}; render it with `snell render {}`\n", path.display(), path.display()));
+    let shown = path.display().to_string();
+    let quoted = if shown.contains(char::is_whitespace) { format!("'{shown}'") } else { shown };
+    note(format_args!("made {quoted}; render it with: snell render {quoted}\n"));
     Exit::Done
 }

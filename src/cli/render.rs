@@ -37,10 +37,10 @@ pub struct RenderArgs {
     #[arg(long, visible_alias = "spp", value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     passes: Option<u32>,
     /// Stop after this time, such as `90s` or `5min`
-    #[arg(long, value_name = "TIME", value_parser = args::seconds)]
+    #[arg(long, value_name = "TIME", value_parser = args::seconds, allow_hyphen_values = true)]
     time: Option<f64>,
     /// Stop when the picture's relative error is below this, such as `1%`
-    #[arg(long, value_name = "SHARE", value_parser = args::share)]
+    #[arg(long, value_name = "SHARE", value_parser = args::share, allow_hyphen_values = true)]
     error: Option<f64>,
     /// The size of the picture in pixels, such as `640x480`
     #[arg(long, value_name = "WxH", value_parser = args::size)]
@@ -52,7 +52,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// The seed of all random numbers
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = args::seed, allow_hyphen_values = true)]
     seed: Option<u64>,
     /// Write facts about the render as JSON
     #[arg(long, value_name = "FILE.json")]
@@ -67,6 +67,10 @@ const DEFAULT_PASSES: u32 = 64;
 /// Renders a scene.
 pub fn run(args: &RenderArgs) -> Exit {
     let start = Instant::now();
+    let mut session = match Session::open(&args.scene, &args.scene_args) {
+        Ok(session) => session,
+        Err(reason) => return fail(reason),
+    };
     // What can be wrong with the command is said before any work is done.
     let mut targets = match open_targets(args) {
         Ok(targets) => targets,
@@ -77,10 +81,6 @@ pub fn run(args: &RenderArgs) -> Exit {
         Ok(pool) => pool,
         Err(error) => return fail(format_args!("threads cannot be started: {error}")),
     };
-    let mut session = match Session::open(&args.scene, &args.scene_args) {
-        Ok(session) => session,
-        Err(reason) => return fail(reason),
-    };
 
     let ready = session.compile().and_then(|checked| {
         let camera = session.camera(&checked, args.camera.as_deref())?.clone();
@@ -89,25 +89,24 @@ pub fn run(args: &RenderArgs) -> Exit {
     let good = session.is_good();
     session.report(&args.messages, false);
     let Some(ready) = ready.filter(|_| good) else { return Exit::SceneWrong };
-
-    if let Some(path) = overwritten(args, &targets, &ready.inputs) {
-        return fail(format_args!("the scene reads `{}`: write elsewhere with `-o`", path.display()));
+    if let Err(reason) = ready.reason_not_to_start(args, &targets) {
+        return fail(reason);
     }
+
     interrupt::listen();
-    let settings = ready.settings(args);
-    let bar = Bar::new(settings.stop, args.messages.quiet);
-    let outcome = pool.install(|| crate::render::render(&ready.lowered.world, &settings, &bar));
+    let bar = Bar::new(ready.settings.stop, args.messages.quiet);
+    let outcome = pool.install(|| crate::render::render(&ready.lowered.world, &ready.settings, &bar));
     bar.finish();
 
-    let files = match write(&mut targets, &outcome, &ready) {
-        Ok(()) if outcome.stats.passes == 0 => Vec::new(), // nothing was seen: no picture is better than a black one
-        Ok(()) => match targets.into_iter().map(Target::finish).collect::<Result<Vec<_>, _>>() {
-            Ok(paths) => paths.iter().map(|path| path.display().to_string()).collect(),
-            Err(error) => return fail(error),
-        },
-        Err(error) => return fail(error),
+    let written = if outcome.stats.passes == 0 {
+        Ok(Vec::new()) // nothing was seen: no picture is better than a black one
+    } else {
+        write(&mut targets, &outcome, &ready).and_then(|()| targets.into_iter().map(Target::finish).collect())
     };
-    conclude(args, &session.name, &files, &ready, &outcome)
+    match written {
+        Ok(paths) => conclude(args, &session.name, &paths, &ready, &outcome),
+        Err(error) => fail(error),
+    }
 }
 
 /// A scene ready to be rendered.
@@ -115,7 +114,7 @@ struct Ready {
     plan: Plan,
     lowered: Lowered,
     camera: ir::Camera,
-    render: ir::Render,
+    settings: Settings,
     /// Every file that the scene is made of.
     inputs: Vec<PathBuf>,
     compile_seconds: f64,
@@ -144,30 +143,59 @@ fn make_ready(
         Some(Method::Auto) => Some(crate::plan::suited(&loaded, Some(&camera))),
     };
     let plan = crate::plan::plan(&loaded, Some(&camera), forced);
+    crate::plan::warn(&plan, &loaded, &mut session.problems);
     let lowered = crate::lower::lower(&loaded, &plan, &camera, &session.files, &mut session.problems)?;
     let build_seconds = start.elapsed().as_secs_f64() - compiled;
-    let render = checked.render.clone();
+    let settings = settings(args, &checked.render, &plan, &lowered);
     let texts = session.sources.files().iter().map(|file| file.path.clone());
     let inputs = texts.chain(loaded.files).collect();
-    Some(Ready { plan, lowered, camera, render, inputs, compile_seconds: compiled, build_seconds })
+    Some(Ready { plan, lowered, camera, settings, inputs, compile_seconds: compiled, build_seconds })
 }
 
+/// A stop flag replaces the scene's stop.
+fn settings(args: &RenderArgs, render: &ir::Render, plan: &Plan, lowered: &Lowered) -> Settings {
+    let flags = Stop { passes: args.passes, seconds: args.time, error: args.error };
+    let written = Stop {
+        passes: render.stop.passes.map(|passes| passes.value),
+        seconds: render.stop.seconds.map(|seconds| seconds.value),
+        error: render.stop.error.map(|error| error.value),
+    };
+    let stop = [flags, written].into_iter().find(|stop| *stop != Stop::default());
+    Settings {
+        method: lowered.method,
+        max_depth: plan.depth,
+        seed: args.seed.or(render.seed.map(|seed| seed.value)).unwrap_or(0),
+        stop: stop.unwrap_or(Stop { passes: Some(DEFAULT_PASSES), ..Stop::default() }),
+        crop: args.crop,
+    }
+}
+
+/// What the film and its copies take for a pixel, in bytes: eight streams of three sums, the mean, its error, the file.
+const BYTES_PER_PIXEL: u64 = 8 * 24 + 64;
+
 impl Ready {
-    /// A stop flag replaces the scene's stop.
-    fn settings(&self, args: &RenderArgs) -> Settings {
-        let flags = Stop { passes: args.passes, seconds: args.time, error: args.error };
-        let written = Stop {
-            passes: self.render.stop.passes.map(|passes| passes.value),
-            seconds: self.render.stop.seconds.map(|seconds| seconds.value),
-            error: self.render.stop.error.map(|error| error.value),
-        };
-        let stop = [flags, written].into_iter().find(|stop| *stop != Stop::default());
-        Settings {
-            method: self.lowered.method,
-            max_depth: self.plan.depth,
-            seed: args.seed.or(self.render.seed.map(|seed| seed.value)).unwrap_or(0),
-            stop: stop.unwrap_or(Stop { passes: Some(DEFAULT_PASSES), ..Stop::default() }),
-            crop: args.crop,
+    /// Why rendering would be in vain: an output that would replace an input, a crop outside the picture, or more memory
+    /// than there is.
+    fn reason_not_to_start(&self, args: &RenderArgs, targets: &[Target]) -> Result<(), String> {
+        if let Some(path) = overwritten(args, targets, &self.inputs) {
+            return Err(format!("the scene reads `{}`: write elsewhere with `-o`", path.display()));
+        }
+        let (width, height) = self.camera.film.size.value;
+        let picture = Region { x: 0, y: 0, width, height };
+        let region = args.crop.map_or(picture, |crop| crop.clipped(&picture));
+        if region.area() == 0 {
+            return Err(format!("the crop lies outside the picture, which has {width} x {height} pixels"));
+        }
+        let needed = region.area() as u64 * BYTES_PER_PIXEL;
+        match available_memory() {
+            Some(free) if needed > free => Err(format!(
+                "{} x {} pixels need about {} GB of memory, and {} GB are free: use `--size`, or render parts with `--crop`",
+                region.width,
+                region.height,
+                needed >> 30,
+                free >> 30,
+            )),
+            _ => Ok(()),
         }
     }
 
@@ -194,10 +222,20 @@ fn open_targets(args: &RenderArgs) -> Result<Vec<Target>, String> {
         _ => vec![args.scene.with_extension("png")],
     };
     let paths = if args.outputs.is_empty() { default() } else { args.outputs.clone() };
+    if paths.iter().any(|path| path.as_os_str() == "-") {
+        return Err("a picture does not go to standard output: name a file with `-o`".to_owned());
+    }
     if let Some(report) = &args.report {
         writable(report)?;
     }
     paths.iter().map(|path| Target::open(path).map_err(|error| error.to_string())).collect()
+}
+
+/// The memory that can be had without swapping, in bytes, where the system says.
+fn available_memory() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kilobytes| kilobytes << 10)
 }
 
 /// The output that would replace a file of the scene.
@@ -218,25 +256,26 @@ fn writable(report: &Path) -> Result<(), String> {
 fn write(targets: &mut [Target], outcome: &Outcome, ready: &Ready) -> Result<(), crate::output::OutputError> {
     let region = outcome.film.region();
     let variance = outcome.film.variance().unwrap_or_default();
-    let facts = [
-        ("software", format!("snell {}", env!("CARGO_PKG_VERSION"))),
-        ("passes", outcome.stats.passes.to_string()),
+    let facts = vec![
+        ("passes".to_owned(), outcome.stats.passes.to_string()),
+        ("seed".to_owned(), ready.settings.seed.to_string()),
     ];
     let frame = Frame {
         width: region.width,
         height: region.height,
         radiance: outcome.film.mean(),
         standard_error: variance.iter().map(|pixel| pixel.map(f32::sqrt)).collect(),
-        facts: facts.map(|(name, value)| (name.to_owned(), value)).to_vec(),
+        facts,
     };
     let display = ready.display();
     targets.iter_mut().try_for_each(|target| target.write(&frame, &display))
 }
 
-fn conclude(args: &RenderArgs, scene: &str, files: &[String], ready: &Ready, outcome: &Outcome) -> Exit {
+fn conclude(args: &RenderArgs, scene: &str, files: &[PathBuf], ready: &Ready, outcome: &Outcome) -> Exit {
+    let files: Vec<String> = files.iter().map(|path| path.display().to_string()).collect();
     let summary = Summary {
         scene,
-        files,
+        files: &files,
         plan: &ready.plan,
         method: &ready.lowered.method,
         outcome,

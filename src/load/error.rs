@@ -66,7 +66,7 @@ pub enum LoadError {
     #[error("`{name}` is not a mesh that can be rendered: {reason}")]
     #[diagnostic(
         code(snell::load::bad_mesh),
-        help("a mesh is an OBJ file with `v` and `f` lines; export it again")
+        help("a mesh is an OBJ file with `v` and `f` lines; mend it, or export it again")
     )]
     BadMesh {
         /// As written.
@@ -79,7 +79,10 @@ pub enum LoadError {
     },
     /// Not a picture that can be read.
     #[error("`{name}` cannot be used as a picture: {reason}")]
-    #[diagnostic(code(snell::load::bad_picture), help("save it as PNG, JPEG, PPM, HDR or EXR"))]
+    #[diagnostic(
+        code(snell::load::bad_picture),
+        help("save it again as PNG, JPEG, PPM, HDR or EXR, with at most 32,768 pixels a side")
+    )]
     BadPicture {
         /// As written.
         name: String,

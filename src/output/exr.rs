@@ -18,7 +18,8 @@ pub fn encode(out: &mut (impl Write + Seek), frame: &Frame) -> std::io::Result<(
             channels.push(AnyChannel::new(Text::from(name.as_str()), plane(&frame.standard_error, index)));
         }
     }
-    let mut attributes = LayerAttributes::default();
+    let software_name = Some(Text::from(concat!("snell ", env!("CARGO_PKG_VERSION"))));
+    let mut attributes = LayerAttributes { software_name, ..LayerAttributes::default() };
     for (name, value) in &frame.facts {
         attributes.other.insert(Text::from(name.as_str()), AttributeValue::Text(Text::from(value.as_str())));
     }

@@ -54,6 +54,8 @@ pub enum OutputError {
 /// there is one, stays as it is.
 pub struct Target {
     path: PathBuf,
+    /// Where it really lies: a link keeps pointing there.
+    place: PathBuf,
     format: Format,
     file: NamedTempFile,
 }
@@ -68,8 +70,9 @@ impl Target {
         if path.is_dir() {
             return Err(unwritable(path, "it is a folder"));
         }
-        let file = temporary_beside(path)?;
-        Ok(Self { path: path.to_owned(), format, file })
+        let place = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let file = temporary_beside(&place)?;
+        Ok(Self { path: path.to_owned(), place, format, file })
     }
 
     /// The file's name.
@@ -91,7 +94,7 @@ impl Target {
     /// # Errors
     /// [`OutputError::Unwritable`]; a file that was there before is still whole then.
     pub fn finish(self) -> Result<PathBuf, OutputError> {
-        keep(self.file, &self.path)?;
+        keep(self.file, &self.place)?;
         Ok(self.path)
     }
 

@@ -1,11 +1,15 @@
 //! What a scene calls for: its effects with the lines that need them, and the method that suits them.
 
 pub mod effects;
+mod error;
 
+use crate::diag::Problems;
 use crate::ir::light::LightKind;
-use crate::ir::{Camera, Method};
+use crate::ir::{Camera, Method, ShapeKind};
 use crate::load::Loaded;
+use crate::source::Span;
 pub use effects::{Effect, EffectUse};
+pub use error::PlanWarning;
 
 /// What will be simulated, and how.
 #[derive(Clone, PartialEq, Debug)]
@@ -67,6 +71,24 @@ pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, forced: Option<Method>
     }
 }
 
+/// Notes what the method of `plan` cannot do justice to.
+pub fn warn(plan: &Plan, loaded: &Loaded<'_>, problems: &mut Problems) {
+    if let (Method::Ppm, Some((light, plane))) = (plan.method, endless(loaded)) {
+        problems.push(PlanWarning::EndlessPhotons { light, plane });
+    }
+}
+
+/// A light from infinitely far and a plane without end.
+fn endless(loaded: &Loaded<'_>) -> Option<(Span, Span)> {
+    let scene = loaded.scene;
+    let far = scene.lights.iter().find(|light| matches!(light.kind, LightKind::Directional { .. }));
+    let environment = scene.environment.as_ref().map(|environment| environment.span);
+    let light = far.map(|light| light.span).or(environment)?;
+    let is_plane =
+        |object: &&crate::ir::Object| matches!(scene.shapes[object.shape].kind, ShapeKind::Plane { .. });
+    Some((light, scene.objects.iter().find(is_plane)?.span))
+}
+
 /// The method that suits a scene, whatever it says itself.
 pub fn suited(loaded: &Loaded<'_>, camera: Option<&Camera>) -> Method {
     choose(loaded, &effects::effects(loaded, camera)).0
@@ -82,6 +104,9 @@ fn choose(loaded: &Loaded<'_>, effects: &[EffectUse]) -> (Method, String) {
             LightKind::Point { .. } | LightKind::Sphere { .. } | LightKind::Directional { .. }
         )
     });
+    if caustics && hidden && endless(loaded).is_some() {
+        return (Method::Pt, "photons from infinitely far cannot cover a plane without end".to_owned());
+    }
     match (caustics, hidden) {
         (true, true) => {
             (Method::Ppm, "small lights shine through or off something specular: caustics".to_owned())

@@ -138,7 +138,7 @@ fn rank(names: impl Iterator<Item = String>, wanted: &str) -> Vec<String> {
     let stem = Path::new(wanted).file_stem().map_or(0, |stem| stem.to_string_lossy().chars().count());
     let mut near: Vec<(usize, String)> = names
         .map(|name| (strsim::osa_distance(&name.to_lowercase(), &wanted.to_lowercase()), name))
-        .filter(|(distance, _)| *distance <= stem.div_ceil(3))
+        .filter(|(distance, name)| name != wanted && *distance <= stem.div_ceil(3))
         .collect();
     near.sort();
     near.dedup();

@@ -1,0 +1,25 @@
+//! What is doubtful about simulating a scene with the method at hand.
+
+use crate::source::Span;
+use miette::Diagnostic;
+use thiserror::Error;
+
+/// A doubt about a method.
+#[derive(Debug, Error, Diagnostic)]
+pub enum PlanWarning {
+    /// Photons are finite in number, the plane is not.
+    #[error("photons from infinitely far cannot cover a plane without end: `ppm` makes it too dark")]
+    #[diagnostic(
+        code(snell::plan::endless_photons),
+        severity(warning),
+        help("use `pt` or `auto`, or a `quad` instead of the plane")
+    )]
+    EndlessPhotons {
+        /// The light.
+        #[label("this light comes from infinitely far")]
+        light: Span,
+        /// The plane.
+        #[label("and this has no end")]
+        plane: Span,
+    },
+}
