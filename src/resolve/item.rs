@@ -9,7 +9,7 @@ use crate::ir::TransformStep;
 use crate::math::DAffine3;
 use crate::schema::{self, Type};
 use crate::source::Span;
-use crate::syntax::ast::{Block, Entry, Expr, FileIndex, Item, ItemKind, Name, Object, Place};
+use crate::syntax::ast::{Block, Entry, Expr, ExprKind, FileIndex, Item, ItemKind, Name, Object, Place};
 use std::rc::Rc;
 
 /// Where objects go.
@@ -216,9 +216,17 @@ impl<'a> Resolver<'a> {
         env: &Env<'a>,
         definition: Option<&Definition<'a>>,
     ) -> Option<Rc<Node>> {
-        let target = self.eval_as(&place.target, Type::Object, env);
+        let (target, body) = match called_by_name(place).filter(|named| env.find(&named.kind).is_some()) {
+            Some(Object { kind, body, .. }) => {
+                let named = self.name(kind, kind.span, env);
+                (self.coerce(named, Type::Object, kind.span), body)
+            }
+            None => {
+                (self.eval_as(&place.target, Type::Object, env), place.body.as_ref().unwrap_or(&EMPTY))
+            }
+        };
         let block = schema::block("place").expect("declared in the registry");
-        let fields = self.read(block, span, place.body.as_ref().unwrap_or(&EMPTY), env);
+        let fields = self.read(block, span, body, env);
         let at = place.at.as_ref().map(|at| (self.eval_as(at, Type::Point, env), at.span));
         let Value::Object(node) = target else { return None };
 
@@ -364,6 +372,18 @@ impl<'a> Resolver<'a> {
 /// Whether a block says how the picture is taken, and is no object.
 fn is_setting(object: &Object) -> bool {
     matches!(object.kind.as_str(), "camera" | "environment" | "render")
+}
+
+/// The name and the block of `place goblet { .. }`, where no block of the language is called `goblet`: then the block is
+/// that of the `place`.
+pub fn called_by_name(place: &Place) -> Option<&Object> {
+    match &place.target.kind {
+        ExprKind::Object(object) => {
+            let is_bare = object.second.is_none() && place.body.is_none();
+            (is_bare && schema::block(&object.kind).is_none()).then_some(object)
+        }
+        _ => None,
+    }
 }
 
 /// A translation as one step.

@@ -234,13 +234,13 @@ impl Lower<'_> {
         parts.skip(Rule::kw_in);
     }
 
-    /// `place = { kw_place ~ expr ~ (kw_as ~ binder | kw_at ~ expr)* ~ block? }`
+    /// `place = { kw_place ~ (object | expr) ~ (kw_as ~ binder | kw_at ~ expr)* ~ block? }`
     fn place(&mut self, pair: Pair<'_, Rule>) -> Place {
         let mut parts = Parts::of(pair);
         let target = self.given_or_poison(
             &mut parts,
             "what `place` places",
-            "write the name of an object: `place goblet`",
+            "write an object or its name: `place goblet`",
         );
         let (mut at, mut name) = (None, None);
         loop {

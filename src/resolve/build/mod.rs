@@ -100,7 +100,11 @@ impl<'a> Resolver<'a> {
             let help = format!("to put it into the picture, write `place {} {{ .. }}`", object.kind.value);
             Error::UnknownBlock { kind: kind.to_owned(), used, help: Some(help) }
         } else {
-            Error::UnknownBlock { kind: kind.to_owned(), used, help: unknown_block_help(kind) }
+            let help = unknown_block_help(kind).or_else(|| {
+                let visible = env.visible();
+                self.propose(kind, visible.iter().map(|definition| definition.name))
+            });
+            Error::UnknownBlock { kind: kind.to_owned(), used, help }
         };
         self.poison(error)
     }
