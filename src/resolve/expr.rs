@@ -60,7 +60,9 @@ impl<'a> Resolver<'a> {
             return Value::Number(quantity);
         }
         let known = || UNITS.iter().map(|(name, ..)| *name);
-        let help = did_you_mean(unit, known())
+        let help = spelled_out(unit)
+            .map(|short| format!("did you mean `{short}`?"))
+            .or_else(|| did_you_mean(unit, known()))
             .unwrap_or_else(|| format!("the units are {}", known().collect::<Vec<_>>().join(" ")));
         self.poison(Error::UnknownUnit { unit: unit.value.clone(), used: unit.span, help })
     }
@@ -336,6 +338,29 @@ impl<'a> Resolver<'a> {
             }
         }
     }
+}
+
+/// The unit that a word spells out.
+fn spelled_out(unit: &str) -> Option<&'static str> {
+    let lower = unit.to_ascii_lowercase();
+    Some(match lower.strip_suffix('s').unwrap_or(&lower) {
+        "millimeter" | "millimetre" => "mm",
+        "centimeter" | "centimetre" => "cm",
+        "meter" | "metre" => "m",
+        "kilometer" | "kilometre" => "km",
+        "inch" | "inche" => "in",
+        "foot" | "feet" => "ft",
+        "degree" | "°" => "deg",
+        "radian" => "rad",
+        "sec" | "second" => "s",
+        "minute" => "min",
+        "watt" => "W",
+        "lumen" => "lm",
+        "kelvin" => "K",
+        "pixel" => "px",
+        "percent" => "%",
+        _ => return None,
+    })
 }
 
 /// The id of the name that an object has.

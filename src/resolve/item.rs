@@ -221,9 +221,7 @@ impl<'a> Resolver<'a> {
                 let named = self.name(kind, kind.span, env);
                 (self.coerce(named, Type::Object, kind.span), body)
             }
-            None => {
-                (self.eval_as(&place.target, Type::Object, env), place.body.as_ref().unwrap_or(&EMPTY))
-            }
+            None => (self.eval_as(&place.target, Type::Object, env), place.body.as_ref().unwrap_or(&EMPTY)),
         };
         let block = schema::block("place").expect("declared in the registry");
         let fields = self.read(block, span, body, env);

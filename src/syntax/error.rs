@@ -12,8 +12,9 @@ use thiserror::Error;
 )]
 pub enum SyntaxError {
     #[error("the first line does not say which version of the language this is")]
-    #[diagnostic(code(snell::syntax::missing_version), help("put `snell 1` before everything else"))]
+    #[diagnostic(code(snell::syntax::missing_version), help("{hint}"))]
     MissingVersion {
+        hint: &'static str,
         #[label("`snell 1` belongs here")]
         at: Span,
     },
@@ -288,6 +289,14 @@ pub enum SyntaxError {
         #[label("{problem}")]
         at: Span,
         problem: String,
+    },
+
+    #[error("a blank parts a number from its unit")]
+    #[diagnostic(code(snell::syntax::apart_unit), help("a unit is glued to its number: write `{glued}`"))]
+    ApartUnit {
+        glued: String,
+        #[label("write `{glued}`")]
+        at: Span,
     },
 
     #[error("this number is too large")]

@@ -64,7 +64,7 @@ impl Lower<'_> {
     fn path(&mut self, parts: &mut Parts<'_>, hint: &str) -> Option<Name> {
         let pair = parts.next()?;
         if pair.as_rule() == Rule::string {
-            return Some(self.string(&pair));
+            return (!self.is_guessed(&pair)).then(|| self.string(&pair));
         }
         let at = self.text.after_token(pair.as_span().start());
         let what = "the name of a file between quotes".to_owned();
@@ -215,23 +215,32 @@ impl Lower<'_> {
         self.of_type(parts, name, "fn ring(n: int) -> object")
     }
 
-    /// `repeat = { kw_for ~ loop_name ~ kw_in ~ expr ~ body }`
+    /// `repeat = { kw_for ~ (wrapped | loop_name ~ kw_in ~ expr) ~ body }`
     fn repeat(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
         let mut parts = Parts::of(pair);
-        let name = self.binder(&mut parts, "this loop", "i");
-        self.kw_in(&mut parts);
-        let range =
-            self.given_or_poison(&mut parts, "what this loop runs over", "write a range, such as `0..4`");
+        let (name, range) = match parts.take(Rule::wrapped) {
+            Some(wrapped) => {
+                let inner = wrapped.as_str().trim_matches(|c: char| "()".contains(c) || c.is_whitespace());
+                let hint = format!("write `for {inner} {{ .. }}`, without parentheses");
+                let at = self.text.trimmed_span_of(&wrapped);
+                self.note(SyntaxError::Unreadable { what: "a loop in parentheses".to_owned(), hint, at });
+                self.loop_over(&mut Parts::of(wrapped))
+            }
+            None => self.loop_over(&mut parts),
+        };
         let body = self.body(&mut parts, "this loop");
         name.map_or(ItemKind::Poison, |name| ItemKind::For { name, range, body })
     }
 
-    /// `kw_in | missing_in`
-    pub(super) fn kw_in(&mut self, parts: &mut Parts<'_>) {
+    /// `loop_name ~ kw_in ~ expr`
+    pub(super) fn loop_over(&mut self, parts: &mut Parts<'_>) -> (Option<Name>, Expr) {
+        let name = self.binder(parts, "this loop", "i");
         if let Some(missing) = parts.take(Rule::missing_in) {
             self.missing_sign("in", "after the loop's name", "write `for i in 0..4`", &missing);
         }
         parts.skip(Rule::kw_in);
+        let range = self.given_or_poison(parts, "what this loop runs over", "write a range, such as `0..4`");
+        (name, range)
     }
 
     /// `place = { kw_place ~ (object | expr) ~ (kw_as ~ binder | kw_at ~ expr)* ~ block? }`
@@ -261,7 +270,13 @@ impl Lower<'_> {
     }
 
     /// Reports that a sign is missing before a node without width.
-    fn missing_sign(&mut self, sign: &'static str, place: &str, hint: &str, missing: &Pair<'_, Rule>) {
+    pub(super) fn missing_sign(
+        &mut self,
+        sign: &'static str,
+        place: &str,
+        hint: &str,
+        missing: &Pair<'_, Rule>,
+    ) {
         let at = self.text.after_token(missing.as_span().start());
         self.note(SyntaxError::MissingSign { sign, place: place.to_owned(), hint: hint.to_owned(), at });
     }
