@@ -153,11 +153,12 @@ pub enum CheckError {
         diffuse: Span,
     },
     #[error("{what} is {found}, and must be {range}")]
-    #[diagnostic(code(snell::check::out_of_range))]
+    #[diagnostic(code(snell::check::out_of_range), help("write for example `{example}`"))]
     OutOfRange {
         what: &'static str,
         found: String,
         range: String,
+        example: String,
         #[label("must be {range}")]
         used: Span,
     },
@@ -210,7 +211,9 @@ pub enum CheckError {
     UpAlongView {
         #[label("the view goes along `up`")]
         view: Span,
-        #[label("this is up")]
+        /// What `up` points at says.
+        said: &'static str,
+        #[label("{said}")]
         up: Span,
     },
     #[error("a film of {width} x {height} pixels cannot be made")]

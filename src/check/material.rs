@@ -136,7 +136,8 @@ impl Check<'_> {
         let Input::Constant(value) = input else { return };
         if !(0.0..=1.0).contains(&value.r) {
             let (found, range) = (value.r.to_string(), "from 0 to 1".to_owned());
-            self.report(CheckError::OutOfRange { what, found, range, used: value.span });
+            let example = value.r.clamp(0.0, 1.0).to_string();
+            self.report(CheckError::OutOfRange { what, found, range, example, used: value.span });
         }
     }
 

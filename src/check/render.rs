@@ -28,10 +28,13 @@ impl Check<'_> {
     /// Notes a photon setting outside the range that the registry declares.
     fn setting(&mut self, what: &'static str, name: &str, value: Option<Spanned<f64>>) {
         let declared = block("photons").and_then(|photons| photons.field(name));
-        let (Some(value), Some(Field { ty, range: Some(range), .. })) = (value, declared) else { return };
+        let (Some(value), Some(field @ Field { ty, range: Some(range), .. })) = (value, declared) else {
+            return;
+        };
         if !range.contains(value.value) {
             let (found, range) = (ty.write(value.value), range.describe(*ty));
-            self.report(CheckError::OutOfRange { what, found, range, used: value.span });
+            let example = field.example().to_owned();
+            self.report(CheckError::OutOfRange { what, found, range, example, used: value.span });
         }
     }
 }

@@ -71,7 +71,8 @@ impl<'a> Resolver<'a> {
             return self.poison(Error::NotYet { word: word.to_owned(), used, help });
         }
         let wanted = Type::Choice(words).noun();
-        let help = did_you_mean(word, words.iter().copied()).unwrap_or_else(|| format!("write {wanted}"));
+        let help = did_you_mean(word, words.iter().copied())
+            .unwrap_or_else(|| format!("write for example `{}`", words[0]));
         self.poison(Error::UnknownWord { word: word.to_owned(), wanted, used, help })
     }
 
@@ -203,7 +204,8 @@ impl<'a> Resolver<'a> {
         }
         let range = "from 100K to 1000000000K".to_owned();
         let (field, found) = ("color".to_owned(), format!("`{}`", self.text(used)));
-        self.poison(Error::OutOfRange { field, range, found, used, said: None })
+        let help = "daylight is `6500K`, a light bulb `2700K`".to_owned();
+        self.poison(Error::OutOfRange { field, range, found, used, said: None, help })
     }
 
     /// A report that a value is not of the type wanted.

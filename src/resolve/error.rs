@@ -260,6 +260,8 @@ pub enum Error {
         used: Span,
         #[label("the range is said here")]
         said: Option<Span>,
+        #[help]
+        help: String,
     },
     #[error("`{operator}` cannot join {left_noun} and {right_noun}")]
     #[diagnostic(code(snell::resolve::incompatible))]

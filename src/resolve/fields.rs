@@ -83,8 +83,11 @@ impl<'a> Resolver<'a> {
             return value;
         }
         let found = format!("`{}`", field.ty.write(*number));
-        let range = range.describe(field.ty);
-        self.poison(Error::OutOfRange { field: field.name.to_owned(), range, found, used, said: None })
+        let nearest = range.nearest(*number).map(|nearest| field.ty.write(nearest));
+        let example = nearest.unwrap_or_else(|| field.example().to_owned());
+        let (range, help) =
+            (range.describe(field.ty), format!("write for example `{}: {example}`", field.name));
+        self.poison(Error::OutOfRange { field: field.name.to_owned(), range, found, used, said: None, help })
     }
 
     fn report_missing(&mut self, fields: &mut Fields<'a>) {

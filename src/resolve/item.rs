@@ -347,23 +347,33 @@ impl<'a> Resolver<'a> {
         });
     }
 
-    /// Objects and lights in a file that is imported, where they would do nothing.
+    /// Objects, lights and cameras in a file that is imported, where they would do nothing: one report for the file.
     pub(super) fn definitions_only(&mut self, file: FileIndex) {
         let program = self.program;
-        for item in &program.files[file.0 as usize].items {
-            let stray = matches!(
-                item.kind,
-                ItemKind::Object(_)
-                    | ItemKind::Place(_)
-                    | ItemKind::For { .. }
-                    | ItemKind::Value(_)
-                    | ItemKind::If { .. }
-            );
-            if stray {
-                let help = "give it a name with `let`, or `include` the file";
-                self.misplaced_item("an object", "in a file that is imported", item.span, help);
+        let mut strays = program.files[file.0 as usize].items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Object(object) => Some((item, Some(object))),
+            ItemKind::Place(_) | ItemKind::For { .. } | ItemKind::Value(_) | ItemKind::If { .. } => {
+                Some((item, None))
             }
-        }
+            _ => None,
+        });
+        let Some((first, object)) = strays.next() else { return };
+        let (noun, help) = match object {
+            Some(object) if is_setting(object) => {
+                let help = "`include` the file, or move this into the main file";
+                (format!("`{}`", object.kind.value), help)
+            }
+            Some(object) if object.kind.value == "light" => {
+                ("a light".to_owned(), "give it a name with `let`, or `include` the file")
+            }
+            _ => ("an object".to_owned(), "give it a name with `let`, or `include` the file"),
+        };
+        let what = match strays.count() {
+            0 => noun,
+            1 => format!("{noun}, like one item after it,"),
+            others => format!("{noun}, like {others} items after it,"),
+        };
+        self.misplaced_item(&what, "in a file that is imported", first.span, help);
     }
 }
 

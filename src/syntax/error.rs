@@ -342,7 +342,7 @@ pub enum SyntaxError {
         #[label("named here")]
         at: Span,
         #[help]
-        hint: Option<String>,
+        hint: String,
     },
 
     #[error("`{path}` lies outside the scene's folder")]

@@ -176,12 +176,19 @@ pub(super) fn items(text: &str, base: u32, load: &mut Load<'_>, problems: &mut P
 fn missing_error(missing: Missing, name: &str, at: Span) -> SyntaxError {
     let path = name.to_owned();
     match missing {
-        Missing::NotFound { near, .. } => {
+        Missing::NotFound { near, tried } => {
             // Names of files come without the folder that was written before the wanted one.
             let folder = name.rsplit_once('/').map(|(folder, _)| format!("{folder}/")).unwrap_or_default();
             let folder = |near: &str| if near.contains('/') { String::new() } else { folder.clone() };
             let quoted: Vec<String> = near.iter().map(|name| format!("`{}{name}`", folder(name))).collect();
-            let hint = (!quoted.is_empty()).then(|| format!("did you mean {}?", quoted.join(" or ")));
+            let tried: Vec<String> = tried.iter().map(|path| format!("`{}`", path.display())).collect();
+            let hint = match quoted.is_empty() {
+                true => format!(
+                    "looked for {}; another folder can be named with `--asset-dir DIR`",
+                    tried.join(", ")
+                ),
+                false => format!("did you mean {}?", quoted.join(" or ")),
+            };
             SyntaxError::FileNotFound { path, at, hint }
         }
         Missing::Outside { .. } => SyntaxError::FileOutside { path, at },

@@ -85,7 +85,8 @@ impl<'a> Resolver<'a> {
         }
         let (field, range) = ("absorption".to_owned(), "per a length greater than 0m".to_owned());
         let found = format!("per `{metres}m`");
-        self.report(Error::OutOfRange { field, range, found, used: *span, said: None });
+        let help = "write for example `absorption: #f4fff6 per 10cm`".to_owned();
+        self.report(Error::OutOfRange { field, range, found, used: *span, said: None, help });
         Rgb::BLACK
     }
 
