@@ -84,6 +84,7 @@ pub enum CheckError {
     SingularTransform {
         #[label("leaves no volume")]
         factor: Span,
+        /// Where the object begins: all of it would run across the other label.
         #[label("of this object")]
         object: Span,
     },
@@ -178,6 +179,43 @@ pub enum CheckError {
     NoLight {
         #[label("all that this camera sees is black")]
         camera: Span,
+    },
+    #[error("this light is sealed in an opaque ball")]
+    #[diagnostic(
+        code(snell::check::light_sealed),
+        severity(warning),
+        help(
+            "move the light out of it, or make the ball of `glass {{ ior: 1.5 }}` or `emissive {{ power: 60W }}`"
+        )
+    )]
+    LightSealed {
+        #[label("nothing of this light gets out")]
+        light: Span,
+        #[label("of this")]
+        object: Span,
+    },
+    #[error("the camera is sealed in an opaque ball, with no light in it")]
+    #[diagnostic(
+        code(snell::check::camera_sealed),
+        severity(warning),
+        help("move the camera out of it, or put a light into it")
+    )]
+    CameraSealed {
+        #[label("the camera is here")]
+        camera: Span,
+        #[label("all that it sees is the inside of this")]
+        object: Span,
+    },
+    #[error("an error of {found} ends the picture after its first pass")]
+    #[diagnostic(
+        code(snell::check::loose_error),
+        severity(warning),
+        help("1 is 100%: write for example `error(1%)`")
+    )]
+    LooseError {
+        found: String,
+        #[label("far too much")]
+        used: Span,
     },
     #[error("path tracing cannot see the caustics that this light throws")]
     #[diagnostic(

@@ -5,6 +5,9 @@ use super::error::CheckError;
 use crate::schema::{Field, Type, block};
 use crate::source::Spanned;
 
+/// A relative error above this is that of a picture which has hardly begun.
+const LOOSE: f64 = 0.5;
+
 impl Check<'_> {
     /// Checks the `render` block.
     pub(super) fn render(&mut self) {
@@ -17,6 +20,10 @@ impl Check<'_> {
         }
         if let Some(error) = render.stop.error {
             self.positive("the error to stop at", error, Type::Number);
+            if error.value > LOOSE {
+                let found = format!("{}%", 100.0 * error.value);
+                self.report(CheckError::LooseError { found, used: error.span });
+            }
         }
         let photons = render.photons;
         self.setting("the number of photons", "count", photons.count.map(|count| count.map(f64::from)));

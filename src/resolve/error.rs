@@ -364,6 +364,16 @@ pub enum Error {
         #[help]
         help: &'static str,
     },
+    #[error("this glass lets nothing through")]
+    #[diagnostic(
+        code(snell::resolve::black_glass),
+        severity(warning),
+        help("`absorption` names the colour that is left: for clear glass take it away, for smoke write `#808080 per 10cm`")
+    )]
+    BlackGlass {
+        #[label("black is left of the light")]
+        used: Span,
+    },
     #[error("a light cannot be stretched unevenly")]
     #[diagnostic(
         code(snell::resolve::uneven_light),

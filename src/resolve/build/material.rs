@@ -81,6 +81,9 @@ impl<'a> Resolver<'a> {
             return Rgb::BLACK;
         };
         if *metres > 0.0 {
+            if left.is_black() {
+                self.report(Error::BlackGlass { used: *span });
+            }
             return left.map(|share| (-libm::log(f64::from(share.clamp(BLACK, 1.0))) / metres) as f32);
         }
         let (field, range) = ("absorption".to_owned(), "per a length greater than 0m".to_owned());
