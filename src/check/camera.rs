@@ -62,7 +62,11 @@ impl Check<'_> {
                 self.focal_length(*focal_length);
                 if radius.value < 0.0 || !radius.value.is_finite() {
                     let example = "f/2.8";
-                    let (what, found) = ("the aperture", format!("{}", radius.value));
+                    let found = match radius.value.is_finite() {
+                        true => Type::Length.write(radius.value),
+                        false => "f/0".to_owned(),
+                    };
+                    let what = "the aperture";
                     self.report(CheckError::NotPositive { what, found, used: radius.span, example });
                 }
                 if matches!(blades.value, 1 | 2) {

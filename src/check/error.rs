@@ -101,10 +101,11 @@ pub enum CheckError {
         used: Span,
     },
     #[error("{what} sends back {found} times the light that arrives")]
-    #[diagnostic(code(snell::check::creates_energy), help("no channel may be greater than 1"))]
+    #[diagnostic(code(snell::check::creates_energy), help("{help}"))]
     CreatesEnergy {
         what: &'static str,
         found: f32,
+        help: String,
         #[label("greater than 1")]
         used: Span,
     },

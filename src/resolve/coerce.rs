@@ -87,7 +87,8 @@ impl<'a> Resolver<'a> {
         let help = match schema::block(name) {
             Some(_) => self.unknown_name_help(name, env),
             None => self
-                .propose(name, names.chain(kinds))
+                .imported_name_help(name, &visible)
+                .or_else(|| self.propose(name, names.chain(kinds)))
                 .or_else(|| Some(format!("define it: `let {name} = diffuse {{ color: #ff8800 }}`"))),
         };
         self.poison(Error::UnknownMaterial { name: name.to_owned(), used, help })
@@ -159,7 +160,7 @@ impl<'a> Resolver<'a> {
         let bare = quantity.dimension == Dimension::NONE;
         match ty {
             Type::Int if bare && quantity.value.fract() != 0.0 => {
-                self.wrong_type("a whole number", "a broken number", span, "round it: `round(x)`")
+                self.wrong_type("a whole number", "a number with a fraction", span, "round it: `round(x)`")
             }
             Type::Length if bare => Value::Number(Quantity::new(quantity.value * self.unit, dimension)),
             Type::FNumber | Type::Pixels if bare => Value::Number(Quantity::new(quantity.value, dimension)),

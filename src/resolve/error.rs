@@ -368,7 +368,9 @@ pub enum Error {
     #[diagnostic(
         code(snell::resolve::black_glass),
         severity(warning),
-        help("`absorption` names the colour that is left: for clear glass take it away, for smoke write `#808080 per 10cm`")
+        help(
+            "`absorption` names the colour that is left: for clear glass take it away, for smoke write `#808080 per 10cm`"
+        )
     )]
     BlackGlass {
         #[label("black is left of the light")]

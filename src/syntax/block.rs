@@ -186,7 +186,7 @@ impl Lower<'_> {
         *kind = ItemKind::Poison;
         sequence.poisoned = true;
         sequence.last = Last::Mistake;
-        let hint = did_you_mean(&word, ITEM_WORDS);
+        let hint = foreign_definition(&word).or_else(|| did_you_mean(&word, ITEM_WORDS));
         let example =
             "an item is a definition, as in `let a = 1m`, or a block with its name, as in `sphere { .. }`";
         let is_value = matches!(next.as_rule(), Rule::expr | Rule::object | Rule::choice);
@@ -351,6 +351,17 @@ impl Sequence {
         };
         self.entries.push(Entry::Item(item));
     }
+}
+
+/// How a definition that other languages begin with `word` is written.
+fn foreign_definition(word: &str) -> Option<String> {
+    let hint = match word {
+        "var" | "const" | "val" | "auto" | "set" | "define" | "int" | "float" => "write `let a = 1m`",
+        "def" | "func" | "function" | "macro" => "write `fn ring(n: int) -> object { .. }`",
+        "use" | "using" | "require" => "write `import \"materials.snell\" as mat`",
+        _ => return None,
+    };
+    Some(hint.to_owned())
 }
 
 /// The words that begin items, for those who nearly wrote one.
