@@ -62,13 +62,18 @@ impl Check<'_> {
                 self.focal_length(*focal_length);
                 if radius.value < 0.0 || !radius.value.is_finite() {
                     let example = "f/2.8";
-                    let (what, found) = ("the aperture", format!("{}", radius.value));
+                    let found = match radius.value.is_finite() {
+                        true => Type::Length.write(radius.value),
+                        false => "f/0".to_owned(),
+                    };
+                    let what = "the aperture";
                     self.report(CheckError::NotPositive { what, found, used: radius.span, example });
                 }
                 if matches!(blades.value, 1 | 2) {
                     let (found, range) =
                         (blades.value.to_string(), "0 for a round iris, or at least 3".to_owned());
-                    self.report(CheckError::OutOfRange { what: "`blades`", found, range, used: blades.span });
+                    let (what, example, used) = ("`blades`", "blades: 7".to_owned(), blades.span);
+                    self.report(CheckError::OutOfRange { what, found, range, example, used });
                 }
                 if let Some(focus) = focus {
                     self.focus(camera, focus);
@@ -85,7 +90,12 @@ impl Check<'_> {
             let (target, position) = (direction.span, camera.position.span);
             self.report(CheckError::CameraLooksNowhere { target, position });
         } else if direction.cross(up.value).length() <= PARALLEL * direction.length() * up.length() {
-            self.report(CheckError::UpAlongView { view: direction.span, up: up.span });
+            // A default stands at the head of the camera's block.
+            let said = match up.span.start == camera.span.start {
+                true => "`up` is (0, 1, 0) where it is not given",
+                false => "this is up",
+            };
+            self.report(CheckError::UpAlongView { view: direction.span, said, up: up.span });
         }
     }
 
@@ -96,7 +106,8 @@ impl Check<'_> {
         if !(0.0 < angle && angle < std::f64::consts::PI) {
             let (found, range) =
                 (Type::Angle.write(angle), "greater than 0deg and less than 180deg".to_owned());
-            self.report(CheckError::OutOfRange { what: "the field of view", found, range, used: span });
+            let (what, example) = ("the field of view", "45deg".to_owned());
+            self.report(CheckError::OutOfRange { what, found, range, example, used: span });
         }
     }
 
@@ -115,8 +126,9 @@ impl Check<'_> {
         let (Filter::Box(radius) | Filter::Tent(radius) | Filter::Gaussian(radius)) = film.filter.value;
         if !(0.0 < radius && radius <= WIDEST_FILTER) {
             let (found, range) = (Type::Pixels.write(radius), "greater than 0px and at most 16px".to_owned());
-            let used = film.filter.span;
-            self.report(CheckError::OutOfRange { what: "the radius of the filter", found, range, used });
+            let (what, example, used) =
+                ("the radius of the filter", "tent(1px)".to_owned(), film.filter.span);
+            self.report(CheckError::OutOfRange { what, found, range, example, used });
         }
     }
 

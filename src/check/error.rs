@@ -84,6 +84,7 @@ pub enum CheckError {
     SingularTransform {
         #[label("leaves no volume")]
         factor: Span,
+        /// Where the object begins: all of it would run across the other label.
         #[label("of this object")]
         object: Span,
     },
@@ -100,10 +101,11 @@ pub enum CheckError {
         used: Span,
     },
     #[error("{what} sends back {found} times the light that arrives")]
-    #[diagnostic(code(snell::check::creates_energy), help("no channel may be greater than 1"))]
+    #[diagnostic(code(snell::check::creates_energy), help("{help}"))]
     CreatesEnergy {
         what: &'static str,
         found: f32,
+        help: String,
         #[label("greater than 1")]
         used: Span,
     },
@@ -153,11 +155,12 @@ pub enum CheckError {
         diffuse: Span,
     },
     #[error("{what} is {found}, and must be {range}")]
-    #[diagnostic(code(snell::check::out_of_range))]
+    #[diagnostic(code(snell::check::out_of_range), help("write for example `{example}`"))]
     OutOfRange {
         what: &'static str,
         found: String,
         range: String,
+        example: String,
         #[label("must be {range}")]
         used: Span,
     },
@@ -177,6 +180,43 @@ pub enum CheckError {
     NoLight {
         #[label("all that this camera sees is black")]
         camera: Span,
+    },
+    #[error("this light is sealed in an opaque ball")]
+    #[diagnostic(
+        code(snell::check::light_sealed),
+        severity(warning),
+        help(
+            "move the light out of it, or make the ball of `glass {{ ior: 1.5 }}` or `emissive {{ power: 60W }}`"
+        )
+    )]
+    LightSealed {
+        #[label("nothing of this light gets out")]
+        light: Span,
+        #[label("of this")]
+        object: Span,
+    },
+    #[error("the camera is sealed in an opaque ball, with no light in it")]
+    #[diagnostic(
+        code(snell::check::camera_sealed),
+        severity(warning),
+        help("move the camera out of it, or put a light into it")
+    )]
+    CameraSealed {
+        #[label("the camera is here")]
+        camera: Span,
+        #[label("all that it sees is the inside of this")]
+        object: Span,
+    },
+    #[error("an error of {found} ends the picture after its first pass")]
+    #[diagnostic(
+        code(snell::check::loose_error),
+        severity(warning),
+        help("1 is 100%: write for example `error(1%)`")
+    )]
+    LooseError {
+        found: String,
+        #[label("far too much")]
+        used: Span,
     },
     #[error("path tracing cannot see the caustics that this light throws")]
     #[diagnostic(
@@ -210,7 +250,9 @@ pub enum CheckError {
     UpAlongView {
         #[label("the view goes along `up`")]
         view: Span,
-        #[label("this is up")]
+        /// What `up` points at says.
+        said: &'static str,
+        #[label("{said}")]
         up: Span,
     },
     #[error("a film of {width} x {height} pixels cannot be made")]

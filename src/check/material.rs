@@ -127,7 +127,18 @@ impl Check<'_> {
             let what = "a channel of this colour";
             self.report(CheckError::NegativeLight { what, found: least.into(), used: color.span });
         } else if most > 1.0 {
-            self.report(CheckError::CreatesEnergy { what, found: most, used: color.span });
+            let bytes = [color.r, color.g, color.b];
+            // Whole numbers beyond 2 are the bytes of a picture.
+            let help = match most > 2.0 && bytes.iter().all(|c| *c <= 255.0 && c.fract() == 0.0) {
+                true => {
+                    let [r, g, b] = bytes.map(|c| c as u8);
+                    format!(
+                        "channels go from 0 to 1: for those of a picture, from 0 to 255, write `#{r:02x}{g:02x}{b:02x}`"
+                    )
+                }
+                false => "no channel may be greater than 1".to_owned(),
+            };
+            self.report(CheckError::CreatesEnergy { what, found: most, help, used: color.span });
         }
     }
 
@@ -136,7 +147,8 @@ impl Check<'_> {
         let Input::Constant(value) = input else { return };
         if !(0.0..=1.0).contains(&value.r) {
             let (found, range) = (value.r.to_string(), "from 0 to 1".to_owned());
-            self.report(CheckError::OutOfRange { what, found, range, used: value.span });
+            let example = value.r.clamp(0.0, 1.0).to_string();
+            self.report(CheckError::OutOfRange { what, found, range, example, used: value.span });
         }
     }
 

@@ -9,6 +9,7 @@ mod error;
 mod light;
 mod material;
 mod render;
+mod sealed;
 mod shape;
 mod transform;
 
@@ -52,6 +53,7 @@ pub fn check(scene: Scene, problems: &mut Problems) -> Option<Checked> {
     check.lights();
     check.cameras();
     check.render();
+    check.sealed();
     Some(Checked(scene))
 }
 

@@ -9,7 +9,8 @@ impl Check<'_> {
     /// Reports singular transforms, by the factor that is to blame.
     pub(super) fn transforms(&mut self) {
         for object in self.scene.objects.iter().filter(|object| is_singular(&object.world_from_object)) {
-            self.report(CheckError::SingularTransform { factor: blame(object), object: object.span });
+            let start = Span::new(object.span.start, object.span.start + 1);
+            self.report(CheckError::SingularTransform { factor: blame(object), object: start });
         }
     }
 }

@@ -1,5 +1,7 @@
 //! "Did you mean …?"
 
+use std::path::PathBuf;
+
 /// The candidates most like `wanted`, the best first, at most three.
 ///
 /// Likeness is the Damerau–Levenshtein distance without regard to case (Damerau 1964; optimal string alignment):
@@ -25,6 +27,25 @@ pub fn did_you_mean<'a>(wanted: &str, candidates: impl IntoIterator<Item = &'a s
         [one] => Some(format!("did you mean {one}?")),
         [rest @ .., last] => Some(format!("did you mean {} or {last}?", rest.join(", "))),
     }
+}
+
+/// What to say of a file that is not there: the files beside it that are called alike, or else where it was looked for.
+pub fn where_it_was_sought(name: &str, tried: &[PathBuf], near: &[String]) -> String {
+    if near.is_empty() {
+        let tried: Vec<String> = tried.iter().map(|path| format!("`{}`", path.display())).collect();
+        return format!(
+            "looked for {}; another folder can be named with `--asset-dir DIR`",
+            tried.join(", ")
+        );
+    }
+    // Names of files come without the folder that was written before the wanted one.
+    let folder = name.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let whole = |near: &String| match folder.is_empty() || near.contains('/') {
+        true => format!("`{near}`"),
+        false => format!("`{folder}/{near}`"),
+    };
+    let quoted: Vec<String> = near.iter().map(whole).collect();
+    format!("did you mean {}?", quoted.join(" or "))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! What can be wrong with the files that a scene names.
 
+use crate::diag::where_it_was_sought;
 use crate::source::{Missing, Span};
 use miette::Diagnostic;
 use thiserror::Error;
@@ -116,19 +117,9 @@ impl LoadError {
         match missing {
             Missing::Outside { .. } => Self::Outside { name, used },
             Missing::NotFound { tried, near } => {
-                Self::MissingFile { name, used, help: where_it_was_sought(&tried, &near) }
+                let help = where_it_was_sought(&name, &tried, &near);
+                Self::MissingFile { name, used, help }
             }
         }
-    }
-}
-
-/// Names the nearest files, or else the places that were tried.
-pub fn where_it_was_sought(tried: &[std::path::PathBuf], near: &[String]) -> String {
-    match near {
-        [] => {
-            let tried: Vec<String> = tried.iter().map(|path| format!("`{}`", path.display())).collect();
-            format!("looked for {}; another folder can be named with `--asset-dir DIR`", tried.join(", "))
-        }
-        [one, ..] => format!("did you mean `{one}`?"),
     }
 }

@@ -142,7 +142,7 @@ impl<'a> Resolver<'a> {
             None => {
                 let least = formals.iter().filter(|formal| formal.default.is_none()).count();
                 let wanted = count_text(least, formals.len());
-                let help = format!("write `{}`", usage(function));
+                let help = format!("write for example `{}`", usage(function));
                 self.report(Error::ArgumentCount { function: name, wanted, found, used, help });
                 None
             }
@@ -150,7 +150,7 @@ impl<'a> Resolver<'a> {
     }
 
     fn missing_argument(&mut self, function: &Function<'a>, formal: &Formal, used: Span) {
-        let (name, help) = (formal.name.value.clone(), format!("write `{}`", usage(function)));
+        let (name, help) = (formal.name.value.clone(), format!("write for example `{}`", usage(function)));
         let function = function.definition.name.value.clone();
         self.report(Error::MissingArgument { function, name, used, help });
     }
@@ -224,9 +224,12 @@ pub fn count_text(least: usize, most: usize) -> String {
     }
 }
 
-/// `ring(n: int, radius: length)`.
+/// A call as it could be written: `ring(n: 3, radius: 30cm)`.
 fn usage(function: &Function) -> String {
-    let formal = |formal: &Formal| format!("{}: {}", formal.name.value, formal.ty.value);
+    let formal = |formal: &Formal| {
+        let example = Type::named(&formal.ty).map_or("..", Type::example);
+        format!("{}: {example}", formal.name.value)
+    };
     let formals: Vec<String> = function.definition.formals.iter().map(formal).collect();
     format!("{}({})", function.definition.name.value, formals.join(", "))
 }

@@ -71,7 +71,8 @@ impl<'a> Resolver<'a> {
             return self.poison(Error::NotYet { word: word.to_owned(), used, help });
         }
         let wanted = Type::Choice(words).noun();
-        let help = did_you_mean(word, words.iter().copied()).unwrap_or_else(|| format!("write {wanted}"));
+        let help = did_you_mean(word, words.iter().copied())
+            .unwrap_or_else(|| format!("write for example `{}`", words[0]));
         self.poison(Error::UnknownWord { word: word.to_owned(), wanted, used, help })
     }
 
@@ -86,7 +87,8 @@ impl<'a> Resolver<'a> {
         let help = match schema::block(name) {
             Some(_) => self.unknown_name_help(name, env),
             None => self
-                .propose(name, names.chain(kinds))
+                .imported_name_help(name, &visible)
+                .or_else(|| self.propose(name, names.chain(kinds)))
                 .or_else(|| Some(format!("define it: `let {name} = diffuse {{ color: #ff8800 }}`"))),
         };
         self.poison(Error::UnknownMaterial { name: name.to_owned(), used, help })
@@ -158,7 +160,7 @@ impl<'a> Resolver<'a> {
         let bare = quantity.dimension == Dimension::NONE;
         match ty {
             Type::Int if bare && quantity.value.fract() != 0.0 => {
-                self.wrong_type("a whole number", "a broken number", span, "round it: `round(x)`")
+                self.wrong_type("a whole number", "a number with a fraction", span, "round it: `round(x)`")
             }
             Type::Length if bare => Value::Number(Quantity::new(quantity.value * self.unit, dimension)),
             Type::FNumber | Type::Pixels if bare => Value::Number(Quantity::new(quantity.value, dimension)),
@@ -203,7 +205,8 @@ impl<'a> Resolver<'a> {
         }
         let range = "from 100K to 1000000000K".to_owned();
         let (field, found) = ("color".to_owned(), format!("`{}`", self.text(used)));
-        self.poison(Error::OutOfRange { field, range, found, used, said: None })
+        let help = "daylight is `6500K`, a light bulb `2700K`".to_owned();
+        self.poison(Error::OutOfRange { field, range, found, used, said: None, help })
     }
 
     /// A report that a value is not of the type wanted.

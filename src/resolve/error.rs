@@ -260,6 +260,8 @@ pub enum Error {
         used: Span,
         #[label("the range is said here")]
         said: Option<Span>,
+        #[help]
+        help: String,
     },
     #[error("`{operator}` cannot join {left_noun} and {right_noun}")]
     #[diagnostic(code(snell::resolve::incompatible))]
@@ -361,6 +363,18 @@ pub enum Error {
         used: Span,
         #[help]
         help: &'static str,
+    },
+    #[error("this glass lets nothing through")]
+    #[diagnostic(
+        code(snell::resolve::black_glass),
+        severity(warning),
+        help(
+            "`absorption` names the colour that is left: for clear glass take it away, for smoke write `#808080 per 10cm`"
+        )
+    )]
+    BlackGlass {
+        #[label("black is left of the light")]
+        used: Span,
     },
     #[error("a light cannot be stretched unevenly")]
     #[diagnostic(

@@ -60,7 +60,9 @@ impl<'a> Resolver<'a> {
             return Value::Number(quantity);
         }
         let known = || UNITS.iter().map(|(name, ..)| *name);
-        let help = did_you_mean(unit, known())
+        let help = spelled_out(unit)
+            .map(|short| format!("did you mean `{short}`?"))
+            .or_else(|| did_you_mean(unit, known()))
             .unwrap_or_else(|| format!("the units are {}", known().collect::<Vec<_>>().join(" ")));
         self.poison(Error::UnknownUnit { unit: unit.value.clone(), used: unit.span, help })
     }
@@ -74,7 +76,7 @@ impl<'a> Resolver<'a> {
             }
             self.wrong_type(
                 "a whole number of pixels",
-                "a broken number",
+                "a number with a fraction",
                 expr.span,
                 "write it such as `1024 x 768`",
             );
@@ -107,10 +109,28 @@ impl<'a> Resolver<'a> {
             return Some(format!("`{name}` needs its braces, as in `{}`", block.example));
         }
         let visible = env.visible();
+        if let Some(help) = self.imported_name_help(name, &visible) {
+            return Some(help);
+        }
         let defined = self.propose(name, visible.iter().map(|definition| definition.name));
         defined
             .or_else(|| did_you_mean(name, known_names(&visible)))
             .or_else(|| Some(format!("define it with `let {name} = ..`, or take it away")))
+    }
+
+    /// What to say of a name that an import holds.
+    pub(super) fn imported_name_help(
+        &mut self,
+        name: &str,
+        visible: &[Rc<Definition<'a>>],
+    ) -> Option<String> {
+        let holds = |this: &mut Self, definition: &Definition<'a>| match definition.kind {
+            Kind::Import(Some(file)) => this.root(file).own(name).is_some(),
+            _ => false,
+        };
+        let import = visible.iter().find(|definition| holds(self, definition))?.name;
+        self.proposed.insert(import.to_owned());
+        Some(format!("did you mean `{import}.{name}`?"))
     }
 
     /// `mat.gold`, `p.x`.
@@ -282,7 +302,7 @@ impl<'a> Resolver<'a> {
     fn turns(&mut self, start: Quantity, end: Quantity, inclusive: bool, span: Span) -> Option<u64> {
         let plain = start.dimension == Dimension::NONE;
         if !plain || start.value.fract() != 0.0 || end.value.fract() != 0.0 {
-            let found = if plain { "a range of broken numbers" } else { "a range of quantities" };
+            let found = if plain { "a range between fractions" } else { "a range of quantities" };
             let help = "count with whole numbers, and multiply in the body: `i * 10cm`";
             self.wrong_type("a range of whole numbers", found, span, help);
             return None;
@@ -336,6 +356,29 @@ impl<'a> Resolver<'a> {
             }
         }
     }
+}
+
+/// The unit that a word spells out.
+fn spelled_out(unit: &str) -> Option<&'static str> {
+    let lower = unit.to_ascii_lowercase();
+    Some(match lower.strip_suffix('s').unwrap_or(&lower) {
+        "millimeter" | "millimetre" => "mm",
+        "centimeter" | "centimetre" => "cm",
+        "meter" | "metre" => "m",
+        "kilometer" | "kilometre" => "km",
+        "inch" | "inche" => "in",
+        "foot" | "feet" => "ft",
+        "degree" | "°" => "deg",
+        "radian" => "rad",
+        "sec" | "second" => "s",
+        "minute" => "min",
+        "watt" => "W",
+        "lumen" => "lm",
+        "kelvin" => "K",
+        "pixel" => "px",
+        "percent" => "%",
+        _ => return None,
+    })
 }
 
 /// The id of the name that an object has.

@@ -83,8 +83,11 @@ impl<'a> Resolver<'a> {
             return value;
         }
         let found = format!("`{}`", field.ty.write(*number));
-        let range = range.describe(field.ty);
-        self.poison(Error::OutOfRange { field: field.name.to_owned(), range, found, used, said: None })
+        let nearest = range.nearest(*number).map(|nearest| field.ty.write(nearest));
+        let example = nearest.unwrap_or_else(|| field.example().to_owned());
+        let (range, help) =
+            (range.describe(field.ty), format!("write for example `{}: {example}`", field.name));
+        self.poison(Error::OutOfRange { field: field.name.to_owned(), range, found, used, said: None, help })
     }
 
     fn report_missing(&mut self, fields: &mut Fields<'a>) {
@@ -126,7 +129,12 @@ impl<'a> Resolver<'a> {
 
 /// Near names, then what other programs call it, then all there is.
 fn unknown_field_help(block: &schema::Block, name: &Name) -> String {
-    if let Some(ours) = schema::foreign_field(name).filter(|ours| block.field(ours).is_some()) {
+    // What one block calls its centre is the position of another.
+    let ours = match schema::foreign_field(name).unwrap_or(name) {
+        "center" | "position" => ["center", "position"].into_iter().find(|ours| block.field(ours).is_some()),
+        ours => Some(ours).filter(|ours| block.field(ours).is_some()),
+    };
+    if let Some(ours) = ours {
         return match (ours, name.as_str()) {
             ("transform", "rotation") => "write `transform: rotate_y(..)`".to_owned(),
             ("transform", word) => format!("write `transform: {word}(..)`"),

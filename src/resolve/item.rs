@@ -9,7 +9,7 @@ use crate::ir::TransformStep;
 use crate::math::DAffine3;
 use crate::schema::{self, Type};
 use crate::source::Span;
-use crate::syntax::ast::{Block, Entry, Expr, FileIndex, Item, ItemKind, Name, Object, Place};
+use crate::syntax::ast::{Block, Entry, Expr, ExprKind, FileIndex, Item, ItemKind, Name, Object, Place};
 use std::rc::Rc;
 
 /// Where objects go.
@@ -216,9 +216,15 @@ impl<'a> Resolver<'a> {
         env: &Env<'a>,
         definition: Option<&Definition<'a>>,
     ) -> Option<Rc<Node>> {
-        let target = self.eval_as(&place.target, Type::Object, env);
+        let (target, body) = match called_by_name(place).filter(|named| env.find(&named.kind).is_some()) {
+            Some(Object { kind, body, .. }) => {
+                let named = self.name(kind, kind.span, env);
+                (self.coerce(named, Type::Object, kind.span), body)
+            }
+            None => (self.eval_as(&place.target, Type::Object, env), place.body.as_ref().unwrap_or(&EMPTY)),
+        };
         let block = schema::block("place").expect("declared in the registry");
-        let fields = self.read(block, span, place.body.as_ref().unwrap_or(&EMPTY), env);
+        let fields = self.read(block, span, body, env);
         let at = place.at.as_ref().map(|at| (self.eval_as(at, Type::Point, env), at.span));
         let Value::Object(node) = target else { return None };
 
@@ -341,29 +347,51 @@ impl<'a> Resolver<'a> {
         });
     }
 
-    /// Objects and lights in a file that is imported, where they would do nothing.
+    /// Objects, lights and cameras in a file that is imported, where they would do nothing: one report for the file.
     pub(super) fn definitions_only(&mut self, file: FileIndex) {
         let program = self.program;
-        for item in &program.files[file.0 as usize].items {
-            let stray = matches!(
-                item.kind,
-                ItemKind::Object(_)
-                    | ItemKind::Place(_)
-                    | ItemKind::For { .. }
-                    | ItemKind::Value(_)
-                    | ItemKind::If { .. }
-            );
-            if stray {
-                let help = "give it a name with `let`, or `include` the file";
-                self.misplaced_item("an object", "in a file that is imported", item.span, help);
+        let mut strays = program.files[file.0 as usize].items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Object(object) => Some((item, Some(object))),
+            ItemKind::Place(_) | ItemKind::For { .. } | ItemKind::Value(_) | ItemKind::If { .. } => {
+                Some((item, None))
             }
-        }
+            _ => None,
+        });
+        let Some((first, object)) = strays.next() else { return };
+        let (noun, help) = match object {
+            Some(object) if is_setting(object) => {
+                let help = "`include` the file, or move this into the main file";
+                (format!("`{}`", object.kind.value), help)
+            }
+            Some(object) if object.kind.value == "light" => {
+                ("a light".to_owned(), "give it a name with `let`, or `include` the file")
+            }
+            _ => ("an object".to_owned(), "give it a name with `let`, or `include` the file"),
+        };
+        let what = match strays.count() {
+            0 => noun,
+            1 => format!("{noun}, like one item after it,"),
+            others => format!("{noun}, like {others} items after it,"),
+        };
+        self.misplaced_item(&what, "in a file that is imported", first.span, help);
     }
 }
 
 /// Whether a block says how the picture is taken, and is no object.
 fn is_setting(object: &Object) -> bool {
     matches!(object.kind.as_str(), "camera" | "environment" | "render")
+}
+
+/// The name and the block of `place goblet { .. }`, where no block of the language is called `goblet`: then the block is
+/// that of the `place`.
+pub fn called_by_name(place: &Place) -> Option<&Object> {
+    match &place.target.kind {
+        ExprKind::Object(object) => {
+            let is_bare = object.second.is_none() && place.body.is_none();
+            (is_bare && schema::block(&object.kind).is_none()).then_some(object)
+        }
+        _ => None,
+    }
 }
 
 /// A translation as one step.

@@ -3,6 +3,7 @@
 //! This looks at every branch, whether it is evaluated or not.
 
 use super::error::Error;
+use super::item::called_by_name;
 use crate::diag::Problems;
 use crate::source::Span;
 use crate::syntax::ast::{
@@ -168,6 +169,9 @@ impl<'a> Lint<'a, '_> {
             }
             ItemKind::If { condition, then, otherwise } => self.choice(condition, then, otherwise.as_ref()),
             ItemKind::Place(place) => {
+                if let Some(named) = called_by_name(place) {
+                    self.mark(&named.kind);
+                }
                 self.expr(&place.target);
                 self.exprs(place.at.as_ref());
                 if let Some(body) = &place.body {

@@ -177,7 +177,12 @@ impl<'a> Resolver<'a> {
     ) -> Value<'a> {
         let joins_alike =
             matches!(sign(op), "+" | "-" | "==" | "!=" | "<" | "<=" | ">" | ">=" | ".." | "..=");
-        let help = help.or(joins_alike.then(|| "both sides have to be of the same kind".to_owned()));
+        let are_transforms =
+            matches!((&left.value, &right.value), (Value::Transform(_), Value::Transform(_)));
+        let help = match are_transforms {
+            true => Some(format!("write `{} then {}`", self.text(left.span), self.text(right.span))),
+            false => help.or(joins_alike.then(|| "both sides have to be of the same kind".to_owned())),
+        };
         self.poison(Error::Incompatible {
             operator: sign(op),
             left_noun: left.value.noun(),

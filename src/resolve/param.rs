@@ -118,6 +118,8 @@ impl<'a> Resolver<'a> {
         };
         let found = format!("`{}`", ty.write(quantity.value));
         let field = definition.name.to_owned();
-        self.poison(Error::OutOfRange { field, range, found, used, said: Some(said) })
+        let nearest = if inclusive && quantity.value > max { max } else { min };
+        let help = format!("write for example `{}`, or widen the range", ty.write(nearest));
+        self.poison(Error::OutOfRange { field, range, found, used, said: Some(said), help })
     }
 }

@@ -54,6 +54,15 @@ impl Range {
         above && below
     }
 
+    /// The value in it that is nearest to `value`; `None` where no value is, since the end is left out.
+    pub fn nearest(&self, value: f64) -> Option<f64> {
+        let (open, end) = match value < self.min || value == self.min {
+            true => (self.open_min, self.min),
+            false => (self.open_max, self.max),
+        };
+        (!open && end.is_finite()).then_some(end)
+    }
+
     /// "at least 1", "greater than 0m", "between 0deg and 180deg", with numbers as `ty` writes them.
     pub fn describe(&self, ty: Type) -> String {
         let (min, max) = (ty.write(self.min), ty.write(self.max));
@@ -80,6 +89,8 @@ mod tests {
         assert!(!Range::above(0.0).contains(0.0));
         assert!(Range::at_least(0.0).contains(0.0));
         assert!(!Range::closed(0.0, 1.0).contains(f64::NAN));
+        assert_eq!(Range::above(0.0).nearest(-1.0), None);
+        assert_eq!(Range::closed(0.0, 1.0).nearest(1.5), Some(1.0));
         assert_eq!(Range::open(0.0, 1.0).describe(Type::Number), "greater than 0 and less than 1");
         assert_eq!(Range::above(0.0).describe(Type::Length), "greater than 0m");
     }

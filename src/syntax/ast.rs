@@ -108,7 +108,7 @@ pub enum ItemKind {
         /// Taken otherwise.
         otherwise: Option<Block>,
     },
-    /// `place goblet as hero { .. }`, `place goblet at (0m, 1m, 0m)`.
+    /// `place goblet as hero { .. }`, `place sphere { .. } at (0m, 1m, 0m)`.
     Place(Place),
     /// `sphere { .. }`, `light sphere { .. }`, `camera front { .. }`, `render { .. }`, `units`-like blocks too.
     Object(Object),
@@ -145,7 +145,7 @@ pub struct Formal {
 /// A placed object.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Place {
-    /// What is placed.
+    /// What is placed. In `place goblet { .. }` it is an object, since only who knows the kinds of blocks can tell.
     pub target: Expr,
     /// `at (x, y, z)`.
     pub at: Option<Expr>,

@@ -86,10 +86,17 @@ impl<'a> Balance<'a> {
     /// Closes the innermost open bracket after the last word before `offset`; `false` when none is open.
     fn insert_before(&mut self, offset: usize) -> bool {
         let Some(open) = self.open.pop() else { return false };
-        let at = self.text[..offset].trim_ascii_end().len();
+        let end = self.text[..offset].trim_ascii_end().len();
+        let at = if self.is_tuple(&open) { first_field(self.text, open.offset + 1, end) } else { end };
         let close = closer(&open).expect("only opening brackets are kept");
         self.repairs.push(Repair::Insert { at, open: open.offset, close });
         true
+    }
+
+    /// Whether no name belongs between these brackets: all but blocks, and the arguments of calls.
+    fn is_tuple(&self, open: &Mark) -> bool {
+        let before = open.offset.checked_sub(1).map_or(b' ', |before| self.text[before]);
+        open.bracket != Some(b'{') && !before.is_ascii_alphanumeric() && before != b'_'
     }
 
     /// Pairs a closing bracket with the one it closes.
@@ -117,6 +124,33 @@ impl<'a> Balance<'a> {
             _ => self.repairs.push(Repair::Remove { at }),
         }
     }
+}
+
+/// Where `, name:` begins within a range of the text, outside brackets in it, or else the range's end.
+fn first_field(text: &[u8], start: usize, end: usize) -> usize {
+    let (mut depth, mut at) = (0_usize, start);
+    while at < end {
+        match text[at] {
+            b'(' | b'[' | b'{' => depth += 1,
+            b')' | b']' | b'}' => depth = depth.saturating_sub(1),
+            b'"' => {
+                at += text[at + 1..end].iter().take_while(|&&byte| byte != b'"' && byte != b'\n').count() + 1
+            }
+            b',' if depth == 0 && is_field(&text[at + 1..end]) => return at,
+            _ => {}
+        }
+        at += 1;
+    }
+    end
+}
+
+/// Whether a text begins with `name:`.
+fn is_field(text: &[u8]) -> bool {
+    let text = text.trim_ascii_start();
+    let name = text.iter().take_while(|byte| byte.is_ascii_alphanumeric() || **byte == b'_').count();
+    text.first().is_some_and(|byte| !byte.is_ascii_digit())
+        && name > 0
+        && text[name..].trim_ascii_start().starts_with(b":")
 }
 
 /// Whether `open` is closed by the marks after it on its line.
@@ -170,6 +204,15 @@ mod tests {
         let text = "camera {\n    position: (0m, 1m, 2m\n    look_at: (0m, 0m, 0m)\n}\n";
         let at = text.find("\n    look").unwrap();
         assert_eq!(repairs(text), [Repair::Insert { at, open: 23, close: b')' }]);
+    }
+
+    #[test]
+    fn a_missing_parenthesis_belongs_before_the_next_field() {
+        let text = "sphere { center: (0m, 1m, 2m, radius: 1m }";
+        let at = text.find(", radius").unwrap();
+        assert_eq!(repairs(text), [Repair::Insert { at, open: 17, close: b')' }]);
+        let call = "place ring(1, radius: 1m";
+        assert_eq!(repairs(call), [Repair::Insert { at: call.len(), open: 10, close: b')' }]);
     }
 
     #[test]

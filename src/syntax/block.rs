@@ -84,6 +84,9 @@ impl Lower<'_> {
         if follows_on_line && self.is_part_of_mistake(rule, sequence) {
             return;
         }
+        if follows_on_line && rule == Rule::expr && self.continues_value(&pair, sequence) {
+            return;
+        }
         if follows_on_line && self.may_begin_entry(rule, start) {
             self.check_separation(&pair, in_block, sequence);
         }
@@ -117,6 +120,47 @@ impl Lower<'_> {
         part
     }
 
+    /// Reports what stands after the value of a field or definition on its line and is part of it: the second half of
+    /// `1,5m`, or another value with nothing between.
+    fn continues_value(&mut self, next: &Pair<'_, Rule>, sequence: &mut Sequence) -> bool {
+        let value = match sequence.entries.last() {
+            Some(Entry::Field(Field { value, .. })) => value,
+            Some(Entry::Item(Item { kind: ItemKind::Let { value, .. }, .. })) => value,
+            Some(Entry::Item(Item { kind: ItemKind::Param { value, .. }, .. })) => value,
+            _ => return false,
+        };
+        let (start, written) = (next.as_span().start(), next.as_str());
+        let before = &self.text.text[..start];
+        let is_number = matches!(value.kind, ExprKind::Number { unit: None, integer: true, .. });
+        if is_number && before.ends_with(',') && written.starts_with(|c: char| c.is_ascii_digit()) {
+            let numeral = before[..start - 1].rsplit(|c: char| !c.is_ascii_digit() && c != '_').next();
+            let second = written.lines().next().unwrap_or_default().trim_end();
+            let hint = format!("the decimal sign is a point: `{}.{second}`", numeral.unwrap_or_default());
+            let at = self.text.span(start - 1, start);
+            self.note(SyntaxError::WrongSign { written: ",".to_owned(), wanted: ".", hint, at });
+        } else if sequence.last == Last::Open && self.may_begin_entry(Rule::expr, start) {
+            let is_moved = matches!(value.kind, ExprKind::Call { .. } | ExprKind::Binary { .. });
+            let moves = ["translate", "scale", "rotate", "look_at", "matrix", "moving"];
+            let at = self.text.after_token(start);
+            if is_moved && moves.iter().any(|word| written.starts_with(word)) {
+                let hint = "write `then` between them: the left one is applied first".to_owned();
+                let place = "between two transforms".to_owned();
+                self.note(SyntaxError::MissingSign { sign: "then", place, hint, at });
+            } else {
+                let shown: String =
+                    written.lines().next().unwrap_or_default().trim_end().chars().take(20).collect();
+                let hint = "write an operator before it, or a comma and the name of a field".to_owned();
+                let at = self.text.first_line_of(next);
+                self.note(SyntaxError::Unreadable { what: format!("`{shown}` after a value"), hint, at });
+            }
+        } else {
+            return false;
+        }
+        sequence.poisoned = true;
+        sequence.last = Last::Mistake;
+        true
+    }
+
     /// Reports a missing comma before an entry that shares its line with the one before.
     fn check_separation(&mut self, next: &Pair<'_, Rule>, in_block: bool, sequence: &mut Sequence) {
         let start = next.as_span().start();
@@ -142,7 +186,7 @@ impl Lower<'_> {
         *kind = ItemKind::Poison;
         sequence.poisoned = true;
         sequence.last = Last::Mistake;
-        let hint = did_you_mean(&word, ITEM_WORDS);
+        let hint = foreign_definition(&word).or_else(|| did_you_mean(&word, ITEM_WORDS));
         let example =
             "an item is a definition, as in `let a = 1m`, or a block with its name, as in `sphere { .. }`";
         let is_value = matches!(next.as_rule(), Rule::expr | Rule::object | Rule::choice);
@@ -307,6 +351,17 @@ impl Sequence {
         };
         self.entries.push(Entry::Item(item));
     }
+}
+
+/// How a definition that other languages begin with `word` is written.
+fn foreign_definition(word: &str) -> Option<String> {
+    let hint = match word {
+        "var" | "const" | "val" | "auto" | "set" | "define" | "int" | "float" => "write `let a = 1m`",
+        "def" | "func" | "function" | "macro" => "write `fn ring(n: int) -> object { .. }`",
+        "use" | "using" | "require" => "write `import \"materials.snell\" as mat`",
+        _ => return None,
+    };
+    Some(hint.to_owned())
 }
 
 /// The words that begin items, for those who nearly wrote one.

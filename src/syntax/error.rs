@@ -12,8 +12,9 @@ use thiserror::Error;
 )]
 pub enum SyntaxError {
     #[error("the first line does not say which version of the language this is")]
-    #[diagnostic(code(snell::syntax::missing_version), help("put `snell 1` before everything else"))]
+    #[diagnostic(code(snell::syntax::missing_version), help("{hint}"))]
     MissingVersion {
+        hint: &'static str,
         #[label("`snell 1` belongs here")]
         at: Span,
     },
@@ -290,6 +291,14 @@ pub enum SyntaxError {
         problem: String,
     },
 
+    #[error("a blank parts a number from its unit")]
+    #[diagnostic(code(snell::syntax::apart_unit), help("a unit is glued to its number: write `{glued}`"))]
+    ApartUnit {
+        glued: String,
+        #[label("write `{glued}`")]
+        at: Span,
+    },
+
     #[error("this number is too large")]
     #[diagnostic(code(snell::syntax::huge_number), help("numbers reach to about 1.8e308"))]
     HugeNumber {
@@ -333,7 +342,7 @@ pub enum SyntaxError {
         #[label("named here")]
         at: Span,
         #[help]
-        hint: Option<String>,
+        hint: String,
     },
 
     #[error("`{path}` lies outside the scene's folder")]

@@ -321,10 +321,7 @@ impl Lower<'_> {
     /// `each = { kw_for ~ binder ~ kw_in ~ expr ~ (kw_if ~ expr)? }`
     fn each(&mut self, value: Expr, pair: Pair<'_, Rule>, span: Span) -> Expr {
         let mut parts = Parts::of(pair);
-        let name = self.binder(&mut parts, "this loop", "i");
-        self.kw_in(&mut parts);
-        let range =
-            self.given_or_poison(&mut parts, "what this loop runs over", "write a range, such as `0..4`");
+        let (name, range) = self.loop_over(&mut parts);
         let filter = parts.peek().map(|_| {
             let condition =
                 self.given_or_poison(&mut parts, "the condition of this `if`", "write it after `if`");

@@ -4,6 +4,7 @@ use super::ast::{Entry, Expr, Item};
 use super::error::SyntaxError;
 use super::grammar::{Parts, Rule, Snell};
 use super::lower::{Lower, MAX_DEPTH};
+use crate::diag::nearest;
 use pest::Parser;
 use pest::error::InputLocation;
 use pest::iterators::Pair;
@@ -67,14 +68,30 @@ impl<'a> Lower<'a> {
             let line = guesses.partition_point(|line| line.end < error.at());
             guesses.get(line).is_some_and(|line| line.start <= error.at())
         };
-        errors.extend(self.errors.iter().filter(|error| !follows(error)).cloned());
+        let is_use = |error: &SyntaxError| match error {
+            SyntaxError::ReservedWord { word, at } => {
+                let mut binders = self.bound_words.iter().filter(|bound| bound.value == *word).peekable();
+                binders.peek().is_some() && binders.all(|bound| bound.span != *at)
+            }
+            _ => false,
+        };
+        errors.extend(self.errors.iter().filter(|error| !follows(error) && !is_use(error)).cloned());
         errors
     }
 
     /// `version = { kw_snell ~ number }`, the first thing in a file.
     fn version(&mut self, parts: &mut Parts<'_>) {
         let Some(version) = parts.take(Rule::version) else {
-            self.note(SyntaxError::MissingVersion { at: self.text.span(0, 0) });
+            let misspelt = parts.peek().filter(|first| first.as_rule() == Rule::bare_field);
+            let name = misspelt.and_then(|first| first.into_inner().next()).map(|name| self.word(&name));
+            let (at, hint) = match name.filter(|name| !nearest(name, ["snell"]).is_empty()) {
+                Some(name) => {
+                    parts.next();
+                    (name.span, "did you mean `snell 1`?")
+                }
+                None => (self.text.span(0, 0), "put `snell 1` before everything else"),
+            };
+            self.note(SyntaxError::MissingVersion { at, hint });
             return;
         };
         let number = Parts::of(version).next();

@@ -38,8 +38,26 @@ fn language(word: &str, line: &str) -> Option<(&'static str, &'static str)> {
     })
 }
 
+/// How a line of POV-Ray that begins with `#` is said here.
+pub(super) fn directive_hint(line: &str) -> String {
+    let word = line[1..].split(|c: char| !c.is_ascii_alphanumeric()).next().unwrap_or_default();
+    let hint = match word {
+        "include" => match line.split('"').nth(1) {
+            Some(file) => return format!("write `include \"{}.snell\"`", file.trim_end_matches(".inc")),
+            None => "write `include \"room.snell\"`",
+        },
+        "declare" | "local" => "write `let goblet = ..`",
+        "macro" => "write `fn ring(n: int) -> object { .. }`",
+        "while" | "for" => "write `for i in 0..10 { .. }`",
+        "if" | "else" => "write `if CONDITION { .. } else { .. }`",
+        "end" => "a block ends with `}`",
+        _ => "remove this line",
+    };
+    hint.to_owned()
+}
+
 /// What those hear who bring a scene for pbrt.
-const PBRT: (&str, &str) = (
+pub(super) const PBRT: (&str, &str) = (
     "pbrt's language",
     "begin with `snell 1`; a shape is `sphere { radius: 5cm }`, what moves it is its `transform`",
 );

@@ -31,10 +31,17 @@ impl Lower<'_> {
         item(kind, span)
     }
 
-    /// `include = { kw_include ~ (string | missing_value) }`
+    /// `include = { kw_include ~ (string | missing_value) ~ unwanted_as? }`
     fn include(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
         let hint = "write `include \"room.snell\"`";
-        let Some(path) = self.path(&mut Parts::of(pair), hint) else { return ItemKind::Poison };
+        let mut parts = Parts::of(pair);
+        let Some(path) = self.path(&mut parts, hint) else { return ItemKind::Poison };
+        if let Some(name) = parts.take(Rule::unwanted_as) {
+            let hint = "an `include` takes no name, an `import` does: write `import .. as ..`, or take the name away";
+            let (what, at) = ("a name for what is included".to_owned(), self.text.trimmed_span_of(&name));
+            self.note(SyntaxError::Unreadable { what, hint: hint.to_owned(), at });
+            return ItemKind::Poison;
+        }
         let request = Request { path, is_import: false };
         let file = (self.load)(&request);
         ItemKind::Include { path: request.path, file }
@@ -64,7 +71,7 @@ impl Lower<'_> {
     fn path(&mut self, parts: &mut Parts<'_>, hint: &str) -> Option<Name> {
         let pair = parts.next()?;
         if pair.as_rule() == Rule::string {
-            return Some(self.string(&pair));
+            return (!self.is_guessed(&pair)).then(|| self.string(&pair));
         }
         let at = self.text.after_token(pair.as_span().start());
         let what = "the name of a file between quotes".to_owned();
@@ -78,7 +85,7 @@ impl Lower<'_> {
         let before = self.errors.len();
         let name = self.binder(&mut parts, "this parameter", "seats");
         let ty = self.of_type(&mut parts, name.as_ref(), "seats: int = 12");
-        self.equals(&mut parts, name.as_ref(), before);
+        self.equals(&mut parts, "param", name.as_ref(), before);
         let value = self.definition_value(&mut parts, name.as_ref(), before);
         let range = parts.skip(Rule::kw_in).then(|| {
             self.given_or_poison(
@@ -118,19 +125,20 @@ impl Lower<'_> {
             let at = self.text.trimmed_span_of(&ty);
             self.note(SyntaxError::TypedLet { name: name.value.clone(), at });
         }
-        self.equals(&mut parts, name.as_ref(), before);
+        self.equals(&mut parts, "let", name.as_ref(), before);
         let value = self.definition_value(&mut parts, name.as_ref(), before);
         name.map_or(ItemKind::Poison, |name| ItemKind::Let { name, value })
     }
 
     /// `equals = _{ "=" | wrong_colon | missing_equals }`; silent when something before it was reported.
-    fn equals(&mut self, parts: &mut Parts<'_>, name: Option<&Name>, before: usize) {
+    fn equals(&mut self, parts: &mut Parts<'_>, word: &str, name: Option<&Name>, before: usize) {
         let sign = parts.take(Rule::wrong_colon).or_else(|| parts.take(Rule::missing_equals));
         let (Some(sign), Some(name)) = (sign, name) else { return };
         if self.errors.len() > before {
             return;
         }
-        let hint = format!("write `{} = ..`", name.value);
+        let ty = if word == "param" { ": .." } else { "" };
+        let hint = format!("write `{word} {}{ty} = ..`", name.value);
         if sign.as_rule() == Rule::wrong_colon {
             let at = self.text.span_of(&sign);
             self.note(SyntaxError::WrongSign { written: ":".to_owned(), wanted: "=", hint, at });
@@ -215,32 +223,47 @@ impl Lower<'_> {
         self.of_type(parts, name, "fn ring(n: int) -> object")
     }
 
-    /// `repeat = { kw_for ~ loop_name ~ kw_in ~ expr ~ body }`
+    /// `repeat = { kw_for ~ (wrapped | counting | loop_name ~ kw_in ~ expr) ~ body }`
     fn repeat(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
         let mut parts = Parts::of(pair);
-        let name = self.binder(&mut parts, "this loop", "i");
-        self.kw_in(&mut parts);
-        let range =
-            self.given_or_poison(&mut parts, "what this loop runs over", "write a range, such as `0..4`");
+        if let Some(counting) = parts.take(Rule::counting) {
+            let hint = "a loop runs over a range: write `for i in 0..3 { .. }`".to_owned();
+            let (what, at) = ("a loop that counts".to_owned(), self.text.span_of(&counting));
+            self.note(SyntaxError::Unreadable { what, hint, at });
+            return ItemKind::Poison;
+        }
+        let (name, range) = match parts.take(Rule::wrapped) {
+            Some(wrapped) => {
+                let inner = wrapped.as_str().trim_matches(|c: char| "()".contains(c) || c.is_whitespace());
+                let hint = format!("write `for {inner} {{ .. }}`, without parentheses");
+                let at = self.text.trimmed_span_of(&wrapped);
+                self.note(SyntaxError::Unreadable { what: "a loop in parentheses".to_owned(), hint, at });
+                self.loop_over(&mut Parts::of(wrapped))
+            }
+            None => self.loop_over(&mut parts),
+        };
         let body = self.body(&mut parts, "this loop");
         name.map_or(ItemKind::Poison, |name| ItemKind::For { name, range, body })
     }
 
-    /// `kw_in | missing_in`
-    pub(super) fn kw_in(&mut self, parts: &mut Parts<'_>) {
+    /// `loop_name ~ kw_in ~ expr`
+    pub(super) fn loop_over(&mut self, parts: &mut Parts<'_>) -> (Option<Name>, Expr) {
+        let name = self.binder(parts, "this loop", "i");
         if let Some(missing) = parts.take(Rule::missing_in) {
             self.missing_sign("in", "after the loop's name", "write `for i in 0..4`", &missing);
         }
         parts.skip(Rule::kw_in);
+        let range = self.given_or_poison(parts, "what this loop runs over", "write a range, such as `0..4`");
+        (name, range)
     }
 
-    /// `place = { kw_place ~ expr ~ (kw_as ~ binder | kw_at ~ expr)* ~ block? }`
+    /// `place = { kw_place ~ (object | expr) ~ (kw_as ~ binder | kw_at ~ expr)* ~ block? }`
     fn place(&mut self, pair: Pair<'_, Rule>) -> Place {
         let mut parts = Parts::of(pair);
         let target = self.given_or_poison(
             &mut parts,
             "what `place` places",
-            "write the name of an object: `place goblet`",
+            "write an object or its name: `place goblet`",
         );
         let (mut at, mut name) = (None, None);
         loop {
@@ -261,7 +284,13 @@ impl Lower<'_> {
     }
 
     /// Reports that a sign is missing before a node without width.
-    fn missing_sign(&mut self, sign: &'static str, place: &str, hint: &str, missing: &Pair<'_, Rule>) {
+    pub(super) fn missing_sign(
+        &mut self,
+        sign: &'static str,
+        place: &str,
+        hint: &str,
+        missing: &Pair<'_, Rule>,
+    ) {
         let at = self.text.after_token(missing.as_span().start());
         self.note(SyntaxError::MissingSign { sign, place: place.to_owned(), hint: hint.to_owned(), at });
     }

@@ -16,6 +16,7 @@ impl Lower<'_> {
             Rule::f_number => {
                 self.finite(&pair.as_str()[2..], span).map_or(ExprKind::Poison, ExprKind::FNumber)
             }
+            Rule::string if self.is_guessed(&pair) => ExprKind::Poison,
             Rule::string => ExprKind::Text(self.string(&pair).value),
             Rule::colour => self.colour(&pair),
             Rule::data => self.data(pair),
@@ -25,12 +26,22 @@ impl Lower<'_> {
         Expr { kind, span }
     }
 
-    /// `number = @{ digits ~ ("." ~ digits)? ~ exponent? ~ unit? }`
+    /// `number = @{ digits ~ ("." ~ digits)* ~ exponent? ~ (unit | sp+ ~ apart_unit)? }`
     fn number(&mut self, pair: &Pair<'_, Rule>) -> ExprKind {
         let written = pair.as_str();
         let split = numeral_len(written);
         let (numeral, unit) = written.split_at(split);
         let start = pair.as_span().start();
+        if unit.starts_with('.') {
+            let (what, hint) = (format!("`{written}`"), "a number has one decimal point".to_owned());
+            self.note(SyntaxError::Unreadable { what, hint, at: self.text.span_of(pair) });
+            return ExprKind::Poison;
+        }
+        if unit.starts_with(' ') {
+            let (glued, at) = (format!("{numeral}{}", unit.trim_start()), self.text.span_of(pair));
+            self.note(SyntaxError::ApartUnit { glued, at });
+            return ExprKind::Poison;
+        }
         let integer = numeral.bytes().all(|byte| byte.is_ascii_digit() || byte == b'_');
         let Some(value) = self.finite(numeral, self.text.span(start, start + split)) else {
             return ExprKind::Poison;
@@ -48,6 +59,12 @@ impl Lower<'_> {
             self.note(SyntaxError::HugeNumber { at });
         }
         value
+    }
+
+    /// Whether the closing quote of a text was put in: then nobody knows what it was to be.
+    pub(super) fn is_guessed(&self, pair: &Pair<'_, Rule>) -> bool {
+        let last = pair.as_span().end() - 1;
+        pair.as_str().len() > 1 && self.text.inserted.binary_search(&last).is_ok()
     }
 
     /// `string = @{ "\"" ~ .. ~ "\"" }`: what stands between the quotes.

@@ -5,7 +5,7 @@ use super::error::SyntaxError;
 use super::foreign::recognise;
 use super::lower::{Load, Lower, Request};
 use super::repair::repair;
-use crate::diag::Problems;
+use crate::diag::{Problems, where_it_was_sought};
 use crate::source::{FileId, Files, Missing, SourceMap, Span};
 use std::path::Path;
 use std::sync::Arc;
@@ -176,13 +176,8 @@ pub(super) fn items(text: &str, base: u32, load: &mut Load<'_>, problems: &mut P
 fn missing_error(missing: Missing, name: &str, at: Span) -> SyntaxError {
     let path = name.to_owned();
     match missing {
-        Missing::NotFound { near, .. } => {
-            // Names of files come without the folder that was written before the wanted one.
-            let folder = name.rsplit_once('/').map(|(folder, _)| format!("{folder}/")).unwrap_or_default();
-            let folder = |near: &str| if near.contains('/') { String::new() } else { folder.clone() };
-            let quoted: Vec<String> = near.iter().map(|name| format!("`{}{name}`", folder(name))).collect();
-            let hint = (!quoted.is_empty()).then(|| format!("did you mean {}?", quoted.join(" or ")));
-            SyntaxError::FileNotFound { path, at, hint }
+        Missing::NotFound { near, tried } => {
+            SyntaxError::FileNotFound { path, at, hint: where_it_was_sought(name, &tried, &near) }
         }
         Missing::Outside { .. } => SyntaxError::FileOutside { path, at },
     }

@@ -33,13 +33,15 @@ pub(super) struct Lower<'a> {
     pub load: &'a mut Load<'a>,
     /// The semicolons met so far: a habit is reported once.
     pub semicolons: Vec<Span>,
+    /// The words of the language that items took as names: each is reported there, and not where it is used.
+    pub bound_words: Vec<Name>,
     depth: usize,
 }
 
 impl<'a> Lower<'a> {
     /// A walk over `text`.
     pub(super) fn new(text: Text<'a>, load: &'a mut Load<'a>) -> Self {
-        Self { text, errors: Vec::new(), load, semicolons: Vec::new(), depth: 0 }
+        Self { text, errors: Vec::new(), load, semicolons: Vec::new(), bound_words: Vec::new(), depth: 0 }
     }
 
     /// Notes a mistake.
@@ -88,6 +90,7 @@ impl<'a> Lower<'a> {
         }
         let name = self.word(&pair);
         if is_reserved(&name) {
+            self.bound_words.push(name.clone());
             self.note(SyntaxError::ReservedWord { word: name.value, at: name.span });
             return None;
         }

@@ -30,6 +30,9 @@ pub(super) fn repair(text: &str, base: u32) -> Result<Repaired, SyntaxError> {
     let repairs = balance(&scan.text, &scan.marks);
     let mut errors: Vec<SyntaxError> = scan.open_quotes.iter().map(|quote| quote.report(span)).collect();
     errors.extend(scan.stray_ends.iter().map(|&at| SyntaxError::StrayCommentEnd { at: span(at, at + 2) }));
+    if let Some(first) = scan.odd_blanks.first() {
+        errors.push(unknown_blank(text, first, scan.odd_blanks.len(), span(first.start, first.end)));
+    }
     match scan.open_comment {
         // What the comment swallows is not missing.
         Some(start) => errors.push(SyntaxError::UnclosedComment { at: span(start, start + 2) }),
@@ -43,6 +46,18 @@ pub(super) fn repair(text: &str, base: u32) -> Result<Repaired, SyntaxError> {
     let guesses = scan.open_quotes.iter().map(|quote| line_around(quote.open)).collect();
     let (text, inserted) = apply(scan, &repairs);
     Ok(Repaired { text, inserted, errors, guesses })
+}
+
+/// The report of blanks that are read as plain ones: once for the whole text, since they come in crowds.
+fn unknown_blank(text: &str, first: &Range<usize>, count: usize, at: Span) -> SyntaxError {
+    let code = text[first.clone()].chars().next().map_or(0, u32::from);
+    let others = match count {
+        1 => String::new(),
+        2 => ", as in one other place".to_owned(),
+        _ => format!(", as in {} other places", count - 1),
+    };
+    let hint = format!("this looks like a space and is none: write a plain one{others}");
+    SyntaxError::UnknownCharacter { shown: format!("U+{code:04X}"), hint, at }
 }
 
 impl Repair {

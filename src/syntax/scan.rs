@@ -16,6 +16,8 @@ pub(super) struct Scan {
     pub comments: Vec<Range<usize>>,
     /// Where quotes are missing, with the texts that want them.
     pub open_quotes: Vec<OpenQuote>,
+    /// Blanks other than the plain one: they are read as one.
+    pub odd_blanks: Vec<Range<usize>>,
     /// Where a comment begins that does not end.
     pub open_comment: Option<usize>,
     /// Where a comment ends that did not begin.
@@ -49,6 +51,7 @@ pub(super) struct OpenQuote {
 /// Looks through `text` once.
 pub(super) fn scan(text: &str) -> Scan {
     let mut scanner = Scanner {
+        text,
         bytes: text.as_bytes(),
         at: 0,
         line: 0,
@@ -59,6 +62,7 @@ pub(super) fn scan(text: &str) -> Scan {
             marks: Vec::new(),
             comments: Vec::new(),
             open_quotes: Vec::new(),
+            odd_blanks: Vec::new(),
             open_comment: None,
             stray_ends: Vec::new(),
         },
@@ -74,6 +78,7 @@ pub(super) fn scan(text: &str) -> Scan {
 }
 
 struct Scanner<'a> {
+    text: &'a str,
     bytes: &'a [u8],
     at: usize,
     line: usize,
@@ -102,9 +107,20 @@ impl Scanner<'_> {
             }
             b'"' => self.text(),
             b'(' | b')' | b'[' | b']' | b'{' | b'}' => self.mark(Some(byte)),
+            0x80.. if let Some(blank) = self.odd_blank() => {
+                self.scan.odd_blanks.push(blank.clone());
+                self.blank(blank);
+            }
             _ if self.indent.is_none() => self.mark(None),
             _ => self.at += 1,
         }
+    }
+
+    /// A no-break space or the like, as they come with what is pasted from a page.
+    fn odd_blank(&self) -> Option<Range<usize>> {
+        let rest = self.text.get(self.at..)?;
+        let blank = rest.chars().next().filter(|c| c.is_whitespace())?;
+        Some(self.at..self.at + blank.len_utf8())
     }
 
     fn next_is(&self, byte: u8) -> bool {

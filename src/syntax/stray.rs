@@ -1,6 +1,7 @@
 //! What should not be there: operators of other languages, lines that cannot be read.
 
 use super::error::SyntaxError;
+use super::foreign;
 use super::grammar::Rule;
 use super::lower::{Lower, is_reserved};
 use pest::iterators::Pair;
@@ -10,15 +11,21 @@ impl Lower<'_> {
     pub(super) fn stray(&mut self, pair: &Pair<'_, Rule>) {
         match pair.as_rule() {
             Rule::version => self.note(SyntaxError::MisplacedVersion { at: self.text.trimmed_span_of(pair) }),
-            Rule::directive => self.foreign("POV-Ray's language", pair),
-            Rule::command => self.foreign("pbrt's language", pair),
+            Rule::directive if pair.as_str().starts_with("# ") => {
+                let at = self.text.first_char(pair.as_span().start());
+                let hint = "a comment begins with `//`".to_owned();
+                self.note(SyntaxError::WrongSign { written: "#".to_owned(), wanted: "//", hint, at });
+            }
+            Rule::directive => {
+                self.foreign("POV-Ray's language", foreign::directive_hint(pair.as_str()), pair)
+            }
+            Rule::command => self.foreign("pbrt's language", foreign::PBRT.1.to_owned(), pair),
             _ => self.unreadable(pair),
         }
     }
 
-    fn foreign(&mut self, language: &'static str, pair: &Pair<'_, Rule>) {
+    fn foreign(&mut self, language: &'static str, hint: String, pair: &Pair<'_, Rule>) {
         let at = self.text.first_line_of(pair);
-        let hint = "`snell doc` shows how the same is said here".to_owned();
         self.note(SyntaxError::Foreign { language, hint, at });
     }
 

@@ -81,11 +81,15 @@ impl<'a> Resolver<'a> {
             return Rgb::BLACK;
         };
         if *metres > 0.0 {
+            if left.is_black() {
+                self.report(Error::BlackGlass { used: *span });
+            }
             return left.map(|share| (-libm::log(f64::from(share.clamp(BLACK, 1.0))) / metres) as f32);
         }
         let (field, range) = ("absorption".to_owned(), "per a length greater than 0m".to_owned());
         let found = format!("per `{metres}m`");
-        self.report(Error::OutOfRange { field, range, found, used: *span, said: None });
+        let help = "write for example `absorption: #f4fff6 per 10cm`".to_owned();
+        self.report(Error::OutOfRange { field, range, found, used: *span, said: None, help });
         Rgb::BLACK
     }
 

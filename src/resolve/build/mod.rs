@@ -100,7 +100,11 @@ impl<'a> Resolver<'a> {
             let help = format!("to put it into the picture, write `place {} {{ .. }}`", object.kind.value);
             Error::UnknownBlock { kind: kind.to_owned(), used, help: Some(help) }
         } else {
-            Error::UnknownBlock { kind: kind.to_owned(), used, help: unknown_block_help(kind) }
+            let help = unknown_block_help(kind).or_else(|| {
+                let visible = env.visible();
+                self.propose(kind, visible.iter().map(|definition| definition.name))
+            });
+            Error::UnknownBlock { kind: kind.to_owned(), used, help }
         };
         self.poison(error)
     }
@@ -117,6 +121,25 @@ impl<'a> Resolver<'a> {
 }
 
 fn unknown_block_help(kind: &str) -> Option<String> {
+    let ours = match kind.to_ascii_lowercase().replace('_', "").as_str() {
+        "pointlight" => "light point",
+        "spherelight" | "arealight" => "light sphere",
+        "rectlight" | "quadlight" => "light rect",
+        "directionallight" | "sunlight" | "sun" => "light directional",
+        "ball" => "sphere",
+        "cube" | "cuboid" => "box",
+        "model" | "obj" | "trianglemesh" => "mesh",
+        "lathe" | "sor" => "revolve",
+        "prism" => "extrude",
+        "sky" | "skybox" | "background" | "envmap" => "environment",
+        word if word.starts_with("while ") => {
+            return Some("a loop runs over a range: `for i in 0..3 { .. }`".to_owned());
+        }
+        _ => "",
+    };
+    if let Some(block) = schema::block(ours) {
+        return Some(format!("it is called `{ours}` here: `{}`", block.example));
+    }
     let kinds = || schema::blocks().map(|block| block.kind);
     let lights = || kinds().filter(|known| known.starts_with("light "));
     if kind.starts_with("light") {
