@@ -94,7 +94,7 @@ pub fn run(args: &ConvertArgs) -> Exit {
     for problem in conversion.problems {
         problems.push(problem);
     }
-    session::show(problems, &sources, &args.messages, false);
+    session::show(problems, &sources, &args.messages);
     match (written, conversion.snell) {
         (Err(reason), _) => fail(reason),
         (Ok(()), None) => Exit::SceneWrong,

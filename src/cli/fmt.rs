@@ -39,7 +39,7 @@ fn format(scene: &Path, args: &FmtArgs) -> Exit {
     };
     let mut problems = Problems::default();
     let formatted = crate::format::format(&sources, id, &mut problems);
-    session::show(problems, &sources, &args.messages, false);
+    session::show(problems, &sources, &args.messages);
     let Some(formatted) = formatted else { return Exit::SceneWrong };
     match scene.to_str() {
         _ if args.check && formatted == text => Exit::Done,

@@ -64,16 +64,23 @@ impl Session {
     /// Shows everything that was noted, in source order, and forgets it. Reports for programs are a command's result when
     /// `as_result` is set, and go to standard output then.
     pub fn report(&mut self, args: &MessageArgs, as_result: bool) {
-        show(std::mem::take(&mut self.problems), &self.sources, args, as_result);
+        let good = self.is_good();
+        let problems = std::mem::take(&mut self.problems);
+        if !(args.quiet && good) {
+            show_all(problems, &self.sources, args, as_result);
+        }
     }
 }
 
-/// Shows problems in the form that was asked for.
-pub fn show(problems: Problems, sources: &SourceMap, args: &MessageArgs, as_result: bool) {
-    let report = Report::new(problems, sources);
-    if args.quiet && !report.has_errors() {
-        return;
+/// Shows problems in the form that was asked for; warnings alone only where something may be said.
+pub fn show(problems: Problems, sources: &SourceMap, args: &MessageArgs) {
+    if !args.quiet || problems.has_errors() {
+        show_all(problems, sources, args, false);
     }
+}
+
+fn show_all(problems: Problems, sources: &SourceMap, args: &MessageArgs, as_result: bool) {
+    let report = Report::new(problems, sources);
     match args.message_format {
         MessageFormat::Human => note(report.render_human(&style(args.color))),
         MessageFormat::Short => note(report.render_short()),

@@ -302,7 +302,7 @@ pub enum Mistake {
     #[error("`Lights` was left out: {why}")]
     #[diagnostic(
         code(snell::convert::lights_dropped),
-        help("to keep the lights, convert with `lights: keep`")
+        help("to keep the lights, convert with `--lights keep`")
     )]
     LightsDropped {
         why: &'static str,

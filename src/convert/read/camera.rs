@@ -264,7 +264,7 @@ impl Reader<'_> {
             }
             Basis::Orthonormal => format!(
                 "the camera was made orthonormal; programs on the framework of 2020 do not normalise and magnify \
-                 the picture by {:.4} (convert with `basis: raw` for those)",
+                 the picture by {:.4} (convert with `--basis raw` for those)",
                 1.0 / s
             ),
         };

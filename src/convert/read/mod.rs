@@ -171,7 +171,7 @@ impl Reader<'_> {
             for key in ["ambientLight", "cubeMap"] {
                 if let Some(field) = self.log.take(&mut fields, key) {
                     self.log.dropped(&field.span, "not read yet");
-                    self.note_not_read(format!("`{key}` was left out"), &field.span, "left out");
+                    self.note_not_read(format!("`{key}`"), &field.span, "left out");
                 }
             }
         }
