@@ -203,6 +203,17 @@ impl<'a> Resolver<'a> {
             return None;
         }
         let Takes::These(types, _) = builtin.takes else { return Some(args) };
+        if let ("rotate", [angle, axis]) = (builtin.name, args.as_slice())
+            && matches!((&angle.value, &axis.value), (Value::Number(_), Value::Tuple(_)))
+        {
+            let help = format!(
+                "the axis comes first: `rotate({}, {})`",
+                self.text(axis.span),
+                self.text(angle.span)
+            );
+            self.wrong_type("an axis", &angle.value.noun(), angle.span, &help);
+            return None;
+        }
         let typed: Vec<_> = args
             .into_iter()
             .zip(types)

@@ -1,5 +1,6 @@
 //! From a value to the type that is wanted, or a report that says what was written and what to write.
 
+use super::builtin;
 use super::dimension::{Dimension, Quantity};
 use super::error::Error;
 use super::fields::EMPTY;
@@ -58,6 +59,10 @@ impl<'a> Resolver<'a> {
             (Type::Lens, "pinhole") => lens(self, "pinhole"),
             (Type::Lens, "thin") => lens(self, "thin"),
             (Type::Material, _) => self.unknown_material(name, used, env),
+            (Type::Filter | Type::Projection | Type::Lens, _) if builtin::find(name).is_none() => {
+                let help = format!("write for example `{}`", ty.example());
+                self.poison(Error::UnknownWord { word: name.to_owned(), wanted: ty.noun(), used, help })
+            }
             _ => {
                 let value = self.name(name, used, env);
                 self.coerce(value, ty, used)

@@ -177,11 +177,13 @@ impl<'a> Resolver<'a> {
     ) -> Value<'a> {
         let joins_alike =
             matches!(sign(op), "+" | "-" | "==" | "!=" | "<" | "<=" | ">" | ">=" | ".." | "..=");
-        let are_transforms =
-            matches!((&left.value, &right.value), (Value::Transform(_), Value::Transform(_)));
-        let help = match are_transforms {
-            true => Some(format!("write `{} then {}`", self.text(left.span), self.text(right.span))),
-            false => help.or(joins_alike.then(|| "both sides have to be of the same kind".to_owned())),
+        let (a, b) = (self.text(left.span), self.text(right.span));
+        let help = match (&left.value, &right.value) {
+            (Value::Transform(_), Value::Transform(_)) => Some(format!("write `{a} then {b}`")),
+            (Value::Stop(_), Value::Stop(_)) => {
+                Some(format!("what comes first ends the picture: write `{a} or {b}`"))
+            }
+            _ => help.or(joins_alike.then(|| "both sides have to be of the same kind".to_owned())),
         };
         self.poison(Error::Incompatible {
             operator: sign(op),

@@ -1,6 +1,6 @@
 //! Sequences: the entries of files and blocks, the elements between parentheses and brackets, and what separates them.
 
-use super::ast::{Allow, Block, Entry, ExprKind, Field, Item, ItemKind, Name};
+use super::ast::{Allow, Block, Entry, Expr, ExprKind, Field, Item, ItemKind, Name};
 use super::error::SyntaxError;
 use super::grammar::{Parts, Rule};
 use super::lower::{Lower, is_reserved, item, poison};
@@ -87,6 +87,9 @@ impl Lower<'_> {
         if follows_on_line && rule == Rule::expr && self.continues_value(&pair, sequence) {
             return;
         }
+        if follows_on_line && sequence.last == Last::Open && matches!(rule, Rule::expr | Rule::stray) {
+            sequence.spoil_last();
+        }
         if follows_on_line && self.may_begin_entry(rule, start) {
             self.check_separation(&pair, in_block, sequence);
         }
@@ -123,12 +126,8 @@ impl Lower<'_> {
     /// Reports what stands after the value of a field or definition on its line and is part of it: the second half of
     /// `1,5m`, or another value with nothing between.
     fn continues_value(&mut self, next: &Pair<'_, Rule>, sequence: &mut Sequence) -> bool {
-        let value = match sequence.entries.last() {
-            Some(Entry::Field(Field { value, .. })) => value,
-            Some(Entry::Item(Item { kind: ItemKind::Let { value, .. }, .. })) => value,
-            Some(Entry::Item(Item { kind: ItemKind::Param { value, .. }, .. })) => value,
-            _ => return false,
-        };
+        let last = sequence.last;
+        let Some(value) = sequence.last_value() else { return false };
         let (start, written) = (next.as_span().start(), next.as_str());
         let before = &self.text.text[..start];
         let is_number = matches!(value.kind, ExprKind::Number { unit: None, integer: true, .. });
@@ -138,7 +137,7 @@ impl Lower<'_> {
             let hint = format!("the decimal sign is a point: `{}.{second}`", numeral.unwrap_or_default());
             let at = self.text.span(start - 1, start);
             self.note(SyntaxError::WrongSign { written: ",".to_owned(), wanted: ".", hint, at });
-        } else if sequence.last == Last::Open && self.may_begin_entry(Rule::expr, start) {
+        } else if last == Last::Open && self.may_begin_entry(Rule::expr, start) {
             let is_moved = matches!(value.kind, ExprKind::Call { .. } | ExprKind::Binary { .. });
             let moves = ["translate", "scale", "rotate", "look_at", "matrix", "moving"];
             let at = self.text.after_token(start);
@@ -156,7 +155,7 @@ impl Lower<'_> {
         } else {
             return false;
         }
-        sequence.poisoned = true;
+        sequence.spoil_last();
         sequence.last = Last::Mistake;
         true
     }
@@ -331,6 +330,25 @@ impl Lower<'_> {
 }
 
 impl Sequence {
+    /// The value of the last field or definition.
+    fn last_value(&mut self) -> Option<&mut Expr> {
+        match self.entries.last_mut()? {
+            Entry::Field(field) => Some(&mut field.value),
+            Entry::Item(item) => match &mut item.kind {
+                ItemKind::Let { value, .. } | ItemKind::Param { value, .. } => Some(value),
+                _ => None,
+            },
+        }
+    }
+
+    /// Forgets the last value: what cannot be read after it on its line was part of it.
+    fn spoil_last(&mut self) {
+        self.poisoned = true;
+        if let Some(value) = self.last_value() {
+            value.kind = ExprKind::Poison;
+        }
+    }
+
     /// Adds an item with the `allow`s that wait for it.
     fn push(&mut self, mut item: Item) {
         item.allows = std::mem::take(&mut self.allows);

@@ -46,7 +46,10 @@ pub(super) fn directive_hint(line: &str) -> String {
             Some(file) => return format!("write `include \"{}.snell\"`", file.trim_end_matches(".inc")),
             None => "write `include \"room.snell\"`",
         },
-        "declare" | "local" => "write `let goblet = ..`",
+        "declare" | "local" => {
+            let name = line.split_ascii_whitespace().nth(1).unwrap_or("goblet");
+            return format!("write `let {name} = ..`");
+        }
         "macro" => "write `fn ring(n: int) -> object { .. }`",
         "while" | "for" => "write `for i in 0..10 { .. }`",
         "if" | "else" => "write `if CONDITION { .. } else { .. }`",

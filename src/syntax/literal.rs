@@ -193,6 +193,7 @@ fn describe(c: char) -> (String, String) {
         '→' => "write `->`".to_owned(),
         '…' => "write `..`".to_owned(),
         '\'' => "write `\"` around a text".to_owned(),
+        '?' => "a choice is written `if a { 1m } else { 2m }`".to_owned(),
         '$' | '@' => "write the name alone".to_owned(),
         c if c.is_alphabetic() => "names are made of `a` to `z`, `A` to `Z`, digits and `_`".to_owned(),
         _ => "remove it".to_owned(),

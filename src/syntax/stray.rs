@@ -76,6 +76,11 @@ impl Lower<'_> {
             return;
         }
         let (operator, at) = (self.text.operator_before(offset), self.text.after_token(offset));
+        if operator == "++" || operator == "--" {
+            let (what, sign) = (format!("`{operator}`"), &operator[1..]);
+            let hint = format!("values do not change: give the new one a name, as in `let b = a {sign} 1`");
+            return self.note(SyntaxError::Unreadable { what, hint, at });
+        }
         self.note(SyntaxError::MissingOperand { operator, at });
     }
 
