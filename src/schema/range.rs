@@ -56,7 +56,7 @@ impl Range {
 
     /// The value in it that is nearest to `value`; `None` where no value is, since the end is left out.
     pub fn nearest(&self, value: f64) -> Option<f64> {
-        let (open, end) = match value < self.min || value == self.min {
+        let (open, end) = match value <= self.min {
             true => (self.open_min, self.min),
             false => (self.open_max, self.max),
         };
