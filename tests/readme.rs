@@ -13,12 +13,14 @@ fn the_scene_of_the_readme_is_the_one_that_is_rendered() {
 #[test]
 fn the_reports_of_the_readme_are_what_the_compiler_says() {
     let broken = fs::read_to_string("tests/diagnostics/readme/beads.snell").unwrap();
-    let files = Memory::default().with("lib/materials.snell", fs::read("scenes/lib/materials.snell").unwrap());
+    let files =
+        Memory::default().with("lib/materials.snell", fs::read("scenes/lib/materials.snell").unwrap());
     let mut sources = SourceMap::default();
     let main = sources.add("beads.snell".into(), PathBuf::from("beads.snell"), broken.into()).unwrap();
     let mut problems = Problems::default();
     let _ = snell::compile(&mut sources, &files, main, &[], &mut problems);
-    let said = problems.into_report(&sources).render_human(&Style { color: false, unicode: true, width: 100 });
+    let said =
+        problems.into_report(&sources).render_human(&Style { color: false, unicode: true, width: 100 });
     assert!(readme().contains(said.trim_end()), "the README should show:\n{said}");
 }
 

@@ -27,9 +27,9 @@ pub struct Budget {
 }
 
 impl<'a> Resolver<'a> {
-    /// Notes that one more object comes into the picture. `false`: too many.
-    pub(super) fn spend_object(&mut self, used: Span) -> bool {
-        self.budget.objects += 1;
+    /// Notes that so many more objects come into the picture. `false`: too many, and then none does.
+    pub(super) fn spend_objects(&mut self, count: u64, used: Span) -> bool {
+        self.budget.objects = self.budget.objects.saturating_add(count);
         self.budget.objects <= OBJECTS || self.over("objects in the picture", OBJECTS, used, "place fewer")
     }
 

@@ -20,6 +20,9 @@ pub struct Node {
     pub span: Span,
     /// How many nodes are inside each other, this one counted.
     pub depth: u32,
+    /// How many objects and groups come into the picture with it; known before any does, for groups of groups of groups
+    /// are quickly written.
+    pub count: u64,
 }
 
 /// The kinds of nodes.
@@ -54,8 +57,9 @@ struct Surroundings {
 impl Node {
     /// `node`, found by `on NAME` as this name.
     pub fn named(node: Rc<Self>, id: u32, span: Span) -> Rc<Self> {
-        let depth = node.depth;
-        Rc::new(Self { kind: NodeKind::Named(node, id), transform: Rc::new([]), material: None, span, depth })
+        let (depth, count) = (node.depth, node.count);
+        let kind = NodeKind::Named(node, id);
+        Rc::new(Self { kind, transform: Rc::new([]), material: None, span, depth, count })
     }
 
     /// The id of its outermost name.
@@ -84,7 +88,9 @@ impl<'a> Resolver<'a> {
         material: Option<Handle<ir::Material>>,
         span: Span,
     ) -> Option<Rc<Node>> {
-        let mut node = Node { kind, transform, material, span, depth: 0 };
+        let own = u64::from(!matches!(kind, NodeKind::Place(_) | NodeKind::Named(..)));
+        let mut node = Node { kind, transform, material, span, depth: 0, count: own };
+        node.count = node.inner().iter().fold(own, |sum, inner| sum.saturating_add(inner.count));
         node.depth = 1 + node.inner().iter().map(|inner| inner.depth).max().unwrap_or(0);
         if node.depth > GROUPS {
             let help = "put fewer groups into each other";
@@ -96,6 +102,9 @@ impl<'a> Resolver<'a> {
 
     /// Puts a node into the picture.
     pub(super) fn emit(&mut self, node: &Node) {
+        if !self.spend_objects(node.count, node.span) {
+            return;
+        }
         let outside = Surroundings {
             world: DAffine3::IDENTITY,
             steps: Vec::new(),
@@ -108,34 +117,28 @@ impl<'a> Resolver<'a> {
         self.emit_in(node, &outside);
     }
 
-    /// `false`: there is no room for more objects.
-    fn emit_in(&mut self, node: &Node, around: &Surroundings) -> bool {
-        let counts = !matches!(node.kind, NodeKind::Place(_) | NodeKind::Named(..));
-        if counts && !self.spend_object(node.span) {
-            return false;
-        }
+    fn emit_in(&mut self, node: &Node, around: &Surroundings) {
         match &node.kind {
             NodeKind::Shape(shape, handle) => self.emit_shape(shape, handle, node, around),
             NodeKind::Light(light) => self.emit_light(light, around),
             NodeKind::Group(members) => {
                 let mut inside = around.with(node);
                 inside.fallback = node.material.or(around.fallback);
-                return members.iter().all(|member| self.emit_in(member, &inside));
+                members.iter().for_each(|member| self.emit_in(member, &inside));
             }
             NodeKind::Place(placed) => {
                 let mut inside = around.with(node);
                 inside.forced = around.forced.or(node.material);
                 inside.placed = Some(node.span);
-                return self.emit_in(placed, &inside);
+                self.emit_in(placed, &inside);
             }
             NodeKind::Named(named, id) => {
                 self.count_placement(*id, around.placed.unwrap_or(named.span));
                 let mut inside = around.clone();
                 inside.names.push(*id);
-                return self.emit_in(named, &inside);
+                self.emit_in(named, &inside);
             }
         }
-        true
     }
 
     fn count_placement(&mut self, id: u32, span: Span) {
