@@ -79,7 +79,7 @@ struct AxisRay {
 impl Revolve {
     /// Prepares a profile.
     pub fn new(profile: &Profile) -> Self {
-        let rings: Vec<_> = profile.pieces.iter().map(|control| Ring::around(control)).collect();
+        let rings: Vec<_> = profile.pieces.iter().map(Ring::around).collect();
         let low = rings.iter().fold(DVec2::INFINITY, |low, ring| low.min(ring.low));
         let high = rings.iter().fold(DVec2::NEG_INFINITY, |high, ring| high.max(ring.high));
         let size = (high.y - low.y).max(high.x).max(0.0);
