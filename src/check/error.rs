@@ -128,6 +128,14 @@ pub enum CheckError {
         #[label("less than 0")]
         used: Span,
     },
+    #[error("this mix comes down to {found} materials, and at most {most} may be mixed")]
+    #[diagnostic(code(snell::check::too_deep_mix), help("mix fewer; shares can be multiplied beforehand"))]
+    TooDeepMix {
+        found: u32,
+        most: u32,
+        #[label("too many here")]
+        used: Span,
+    },
     #[error("an endless plane has no area to shine from")]
     #[diagnostic(
         code(snell::check::endless_light),

@@ -10,6 +10,8 @@ use crate::source::Spanned;
 
 /// The most parts of a mix that count on their own: what a renderer keeps at hand for a point.
 const MAX_PARTS: u32 = 6;
+/// The most materials that a mix may come down to, alike or not: each is looked at wherever a ray meets it.
+const MAX_MIXED: u32 = 64;
 
 /// What a material scatters by: all matt parts count as one, all mirrors too, each glossy part and each glass alone.
 #[derive(Clone, Copy, Default)]
@@ -17,6 +19,8 @@ struct Parts {
     matt: bool,
     mirror: bool,
     others: u32,
+    /// The materials that are no mixes, each as often as it occurs.
+    all: u32,
 }
 
 impl Parts {
@@ -28,12 +32,13 @@ impl Parts {
             MaterialKind::Metal { .. } | MaterialKind::Glass { .. } => (false, false, 1),
             MaterialKind::Emissive { .. } | MaterialKind::Mix { .. } => (false, false, 0),
         };
-        Self { matt, mirror, others }
+        Self { matt, mirror, others, all: 1 }
     }
 
     fn with(self, other: Self) -> Self {
         let others = self.others.saturating_add(other.others);
-        Self { matt: self.matt || other.matt, mirror: self.mirror || other.mirror, others }
+        let all = self.all.saturating_add(other.all);
+        Self { matt: self.matt || other.matt, mirror: self.mirror || other.mirror, others, all }
     }
 
     fn count(self) -> u32 {
@@ -62,15 +67,19 @@ impl Check<'_> {
                 kind => Parts::of(kind),
             };
             let mixed = matches!(material.kind, MaterialKind::Mix { .. });
-            if mixed && own.count() > MAX_PARTS {
+            let too_many = mixed && own.count() > MAX_PARTS;
+            let too_deep = own.all > MAX_MIXED;
+            if too_many {
                 self.report(CheckError::TooManyParts {
                     found: own.count(),
                     most: MAX_PARTS,
                     used: material.span,
                 });
+            } else if too_deep {
+                self.report(CheckError::TooDeepMix { found: own.all, most: MAX_MIXED, used: material.span });
             }
             // One report for what is too large, not one more for each mix around it.
-            parts.push(if own.count() > MAX_PARTS { Parts::default() } else { own });
+            parts.push(if too_many || too_deep { Parts::default() } else { own });
         }
     }
 

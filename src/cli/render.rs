@@ -247,10 +247,12 @@ fn overwritten<'a>(args: &'a RenderArgs, targets: &'a [Target], inputs: &[PathBu
 
 fn writable(report: &Path) -> Result<(), String> {
     let folder = report.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if folder.is_dir() && !report.is_dir() {
-        return Ok(());
+    let shown = report.display();
+    match () {
+        () if report.is_dir() => Err(format!("`{shown}` cannot be written: it is a folder")),
+        () if !folder.is_dir() => Err(format!("`{shown}` cannot be written: there is no folder for it")),
+        () => Ok(()),
     }
-    Err(format!("`{}` cannot be written: there is no folder for it", report.display()))
 }
 
 fn write(targets: &mut [Target], outcome: &Outcome, ready: &Ready) -> Result<(), crate::output::OutputError> {

@@ -81,6 +81,28 @@ pub enum MaterialKind {
     },
 }
 
+impl MaterialKind {
+    /// The inputs, each of which may be a texture.
+    pub fn inputs(&self) -> Vec<Input> {
+        match self {
+            Self::Diffuse { color } | Self::Mirror { color } => vec![*color],
+            Self::Phong { diffuse, specular, .. } => vec![*diffuse, *specular],
+            Self::Metal { color: MetalColor::Color(color), roughness } => vec![*color, *roughness],
+            Self::Metal { color: MetalColor::Named(..), roughness } => vec![*roughness],
+            Self::Mix { amount, .. } => vec![*amount],
+            Self::Glass { .. } | Self::Emissive { .. } => Vec::new(),
+        }
+    }
+
+    /// The two materials of a mix; none of any other.
+    pub fn parts(&self) -> Vec<Handle<Material>> {
+        match self {
+            Self::Mix { a, b, .. } => vec![*a, *b],
+            _ => Vec::new(),
+        }
+    }
+}
+
 /// Where a metal's colour comes from.
 #[derive(Clone, PartialEq, Debug)]
 pub enum MetalColor {

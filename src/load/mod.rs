@@ -7,7 +7,7 @@ mod error;
 use crate::asset::{Model, obj, picture};
 use crate::diag::Problems;
 use crate::ir::light::EnvironmentRadiance;
-use crate::ir::material::{Input, MaterialKind, MetalColor};
+use crate::ir::material::Input;
 use crate::ir::{Handle, Material, Scene, ShapeKind, Texture, TextureKind};
 use crate::source::{Files, SourceMap, Span};
 pub use error::LoadError;
@@ -213,25 +213,10 @@ impl Loader<'_, '_> {
         if !self.seen_materials.insert(handle.index()) {
             return;
         }
-        match &self.loaded.scene.materials[handle].kind {
-            MaterialKind::Diffuse { color } | MaterialKind::Mirror { color } => self.input(color),
-            MaterialKind::Phong { diffuse, specular, .. } => {
-                self.input(diffuse);
-                self.input(specular);
-            }
-            MaterialKind::Metal { color, roughness } => {
-                if let MetalColor::Color(color) = color {
-                    self.input(color);
-                }
-                self.input(roughness);
-            }
-            MaterialKind::Glass { .. } | MaterialKind::Emissive { .. } => {}
-            MaterialKind::Mix { a, b, amount } => {
-                self.material(*a);
-                self.material(*b);
-                self.input(amount);
-            }
-        }
+        let scene = self.loaded.scene;
+        let kind = &scene.materials[handle].kind;
+        kind.inputs().iter().for_each(|input| self.input(input));
+        kind.parts().into_iter().for_each(|part| self.material(part));
     }
 
     fn input(&mut self, input: &Input) {

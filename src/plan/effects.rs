@@ -1,7 +1,7 @@
 //! The effects that a scene calls for, each with the places that call for it.
 
 use crate::ir::light::{EnvironmentRadiance, LightKind};
-use crate::ir::material::{Input, MaterialKind, MetalColor, Projection, TextureKind};
+use crate::ir::material::{Input, MaterialKind, Projection, TextureKind};
 use crate::ir::{Camera, Handle, Lens, Material, Object, Scene, ShapeKind, Texture};
 use crate::load::Loaded;
 use crate::source::Span;
@@ -134,43 +134,23 @@ impl Found<'_> {
         if !self.seen.insert(handle.index()) {
             return;
         }
-        let material = &self.scene.materials[handle];
-        match &material.kind {
-            MaterialKind::Diffuse { color } => {
-                self.add(Effect::Indirect, material.span);
-                self.input(color);
+        let scene = self.scene;
+        let material = &scene.materials[handle];
+        let called: &[Effect] = match &material.kind {
+            MaterialKind::Diffuse { .. } => &[Effect::Indirect],
+            MaterialKind::Phong { .. } => &[Effect::Indirect, Effect::Glossy],
+            MaterialKind::Mirror { .. } => &[Effect::Specular],
+            MaterialKind::Metal { .. } => &[Effect::Glossy],
+            MaterialKind::Glass { absorption, .. } if absorption.is_black() => {
+                &[Effect::Specular, Effect::Dielectrics]
             }
-            MaterialKind::Phong { diffuse, specular, .. } => {
-                self.add(Effect::Indirect, material.span);
-                self.add(Effect::Glossy, material.span);
-                self.input(diffuse);
-                self.input(specular);
-            }
-            MaterialKind::Mirror { color } => {
-                self.add(Effect::Specular, material.span);
-                self.input(color);
-            }
-            MaterialKind::Metal { color, roughness } => {
-                self.add(Effect::Glossy, material.span);
-                if let MetalColor::Color(color) = color {
-                    self.input(color);
-                }
-                self.input(roughness);
-            }
-            MaterialKind::Glass { absorption, .. } => {
-                self.add(Effect::Specular, material.span);
-                self.add(Effect::Dielectrics, material.span);
-                if !absorption.is_black() {
-                    self.add(Effect::Absorption, material.span);
-                }
-            }
-            MaterialKind::Emissive { .. } => self.add(Effect::MeshLights, material.span),
-            MaterialKind::Mix { a, b, amount } => {
-                self.material(*a);
-                self.material(*b);
-                self.input(amount);
-            }
-        }
+            MaterialKind::Glass { .. } => &[Effect::Specular, Effect::Dielectrics, Effect::Absorption],
+            MaterialKind::Emissive { .. } => &[Effect::MeshLights],
+            MaterialKind::Mix { .. } => &[],
+        };
+        called.iter().for_each(|&effect| self.add(effect, material.span));
+        material.kind.inputs().iter().for_each(|input| self.input(input));
+        material.kind.parts().into_iter().for_each(|part| self.material(part));
     }
 
     fn input(&mut self, input: &Input) {
