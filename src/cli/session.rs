@@ -5,7 +5,7 @@ use super::{note, print};
 use crate::check::Checked;
 use crate::diag::{Problems, Report, Style};
 use crate::ir::Camera;
-use crate::source::{Disk, SourceMap};
+use crate::source::{Disk, Files, Missing, SourceMap};
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
@@ -98,12 +98,24 @@ const STDIN: &str = "standard input";
 /// Why it cannot be read, in a sentence.
 pub fn read_text(path: &Path) -> Result<String, String> {
     let name = if path.as_os_str() == "-" { STDIN.to_owned() } else { format!("`{}`", path.display()) };
-    let bytes = read(path).map_err(|reason| format!("{name} cannot be read: {reason}"))?;
+    let bytes = read(path).map_err(|reason| {
+        let near = near(path).map_or(String::new(), |near| format!("; did you mean `{}`?", near.display()));
+        format!("{name} cannot be read: {reason}{near}")
+    })?;
     String::from_utf8(bytes).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = good.iter().filter(|&&byte| byte == b'\n').count() + 1;
         format!("{name} is not a text in UTF-8 (line {line}): save it as UTF-8")
     })
+}
+
+/// The file beside `path` whose name is most like it, where `path` itself is missing.
+fn near(path: &Path) -> Option<PathBuf> {
+    let name = path.file_name()?.to_str()?;
+    match Disk::new(path, Vec::new(), true).locate(path, name) {
+        Err(Missing::NotFound { near, .. }) => Some(path.with_file_name(near.first()?)),
+        _ => None,
+    }
 }
 
 fn read(scene: &Path) -> Result<Vec<u8>, String> {
