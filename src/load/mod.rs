@@ -5,6 +5,7 @@
 mod error;
 
 use crate::asset::{Model, obj, picture};
+use crate::check::Checked;
 use crate::diag::Problems;
 use crate::ir::light::EnvironmentRadiance;
 use crate::ir::material::Input;
@@ -62,7 +63,7 @@ impl Loaded<'_> {
 
 /// Reads the files of everything that is in the picture. `None` when one of them cannot be used.
 pub fn load<'a>(
-    scene: &'a Scene,
+    scene: &'a Checked,
     sources: &SourceMap,
     files: &dyn Files,
     problems: &mut Problems,

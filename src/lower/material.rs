@@ -1,11 +1,10 @@
 //! Materials and textures, each lowered once; pictures are decoded once a file.
 
-use super::LowerError;
 use crate::asset::{ModelMaterial, Picture, Pixels, picture};
 use crate::ir::light::{Brightness, EnvironmentRadiance};
 use crate::ir::material::{CheckerCells, Input, MaterialKind, MetalColor, Projection, TextureKind};
 use crate::ir::{self, Handle, ImageUse};
-use crate::load::{Loaded, LoadedMesh, PictureFile};
+use crate::load::{LoadError, Loaded, LoadedMesh, PictureFile};
 use crate::math::{Rgb, rgb};
 use crate::render::bsdf::{self, Material};
 use crate::render::light::{Environment, EnvironmentRadiance as Radiance};
@@ -33,7 +32,7 @@ pub struct Materials<'a> {
     texture_by_handle: FxHashMap<usize, TextureId>,
     images: FxHashMap<PathBuf, Option<Arc<Image>>>,
     gray: Option<MaterialId>,
-    failed: Vec<LowerError>,
+    failed: Vec<LoadError>,
 }
 
 impl<'a> Materials<'a> {
@@ -54,7 +53,7 @@ impl<'a> Materials<'a> {
     }
 
     /// All materials and textures, and the pictures that could not be decoded.
-    pub fn finish(self) -> (Vec<Material>, Vec<Texture>, Vec<LowerError>) {
+    pub fn finish(self) -> (Vec<Material>, Vec<Texture>, Vec<LoadError>) {
         (self.materials, self.textures, self.failed)
     }
 
@@ -263,7 +262,7 @@ impl<'a> Materials<'a> {
         let image = match bytes.and_then(|bytes| picture::decode(&bytes).map_err(|error| error.to_string())) {
             Ok(picture) => Some(Arc::new(linear(&picture))),
             Err(reason) => {
-                self.failed.push(LowerError::BadPicture { name: file.name.clone(), reason, used: file.span });
+                self.failed.push(LoadError::BadPicture { name: file.name.clone(), reason, used: file.span });
                 None
             }
         };
