@@ -62,8 +62,9 @@ impl Lowering<'_> {
                 Form::Exact { kind: SolidKind::Sphere, object_from_solid }
             }
             ShapeKind::Plane { normal, offset } => {
-                let frame = frame_about(normal.value);
-                let object_from_solid = DAffine3::from_mat3_translation(frame, normal.value * *offset);
+                let normal = normal.value.normalize();
+                let object_from_solid =
+                    DAffine3::from_mat3_translation(frame_about(normal), normal * *offset);
                 Form::Exact { kind: SolidKind::Plane, object_from_solid }
             }
             ShapeKind::Disk { center, normal, radius } if similar || !emits => {
