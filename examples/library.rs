@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (width, height, radiance) = (region.width, region.height, outcome.film.mean());
     let frame = Frame { width, height, radiance, standard_error: Vec::new(), facts: Vec::new() };
     let mut bytes = Cursor::new(Vec::new());
-    let display = Display { exposure: Exposure::Auto, tone: Tone::Agx };
+    let display = Display { exposure: Exposure::Auto, tone: Tone::Agx, floor: false };
     snell::output::encode(&mut bytes, Format::Ppm, &frame, &display)?;
     std::io::stdout().write_all(bytes.get_ref())?;
     Ok(())

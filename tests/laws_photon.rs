@@ -5,7 +5,7 @@ use snell::math::{Rgb, Vec3};
 use snell::render::bsdf::Material;
 use snell::render::film::Film;
 use snell::render::integrator::Schedule;
-use snell::render::light::Light;
+use snell::render::light::{Falloff, Light};
 use snell::render::photon::{Disc, Neighbor, Photon, PhotonMap};
 use snell::render::shape::MaterialId;
 use snell::render::{Method, Parts, PpmSettings, Settings, Stop, World, render};
@@ -247,7 +247,7 @@ fn no_light_comes_through_a_thin_wall() {
     parts.materials = vec![diffuse(0.5)];
     let plate = |height: f32| quad(Vec3::new(-2.0, height, -2.0), Vec3::Z * 4.0, Vec3::X * 4.0, 0);
     parts.meshes = vec![plate(0.0), plate(-0.001)];
-    parts.lights = vec![Light::Point { p: Vec3::Y, intensity: Rgb::gray(10.0) }];
+    parts.lights = vec![Light::Point { p: Vec3::Y, intensity: Rgb::gray(10.0), falloff: Falloff::PHYSICAL }];
     let film = map_photons(parts, &ppm(20_000, 50, 0.1, 4, 5));
     assert_eq!(mean(&film), 0.0);
 }

@@ -26,7 +26,7 @@ struct Parts {
 impl Parts {
     fn of(kind: &MaterialKind) -> Self {
         let (matt, mirror, others) = match kind {
-            MaterialKind::Diffuse { .. } => (true, false, 0),
+            MaterialKind::Diffuse { .. } | MaterialKind::Whitted { .. } => (true, false, 0),
             MaterialKind::Phong { .. } => (true, false, 1),
             MaterialKind::Mirror { .. } => (false, true, 0),
             MaterialKind::Metal { .. } | MaterialKind::Glass { .. } => (false, false, 1),
@@ -95,13 +95,23 @@ impl Check<'_> {
                 self.share("`roughness`", *roughness);
             }
             MaterialKind::Glass { ior, tint, .. } => {
-                if ior.value < 1.0 {
-                    self.report(CheckError::IorBelowOne { found: ior.value, used: ior.span });
-                }
+                self.ior(*ior);
                 self.reflectance("this glass", *tint);
+            }
+            MaterialKind::Whitted { diffuse, specular, reflection, transmission, ior, .. } => {
+                [diffuse, specular, reflection, transmission]
+                    .into_iter()
+                    .for_each(|&input| self.factor(input));
+                self.ior(*ior);
             }
             MaterialKind::Emissive { brightness, color } => self.glow(*brightness, *color),
             MaterialKind::Mix { amount, .. } => self.share("`amount`", *amount),
+        }
+    }
+
+    fn ior(&mut self, ior: Spanned<f64>) {
+        if ior.value < 1.0 {
+            self.report(CheckError::IorBelowOne { found: ior.value, used: ior.span });
         }
     }
 
@@ -127,6 +137,16 @@ impl Check<'_> {
                     self.reflectance(what, checker.b);
                 }
             }
+        }
+    }
+
+    /// A factor of a formula that makes no promise of energy: anything but negative.
+    fn factor(&mut self, input: Input) {
+        let Input::Constant(color) = input else { return };
+        let least = color.min_component();
+        if least < 0.0 {
+            let what = "a channel of this colour";
+            self.report(CheckError::NegativeLight { what, found: least.into(), used: color.span });
         }
     }
 

@@ -21,7 +21,7 @@ impl Check<'_> {
             let Some(is_inside) = self.inside_of(object) else { continue };
             let camera = scene.cameras.iter().find(|camera| is_inside(camera.position.value));
             let light = scene.lights.iter().take(LIGHTS).find(|light| match light.kind {
-                LightKind::Point { position: p } | LightKind::Sphere { center: p, .. } => is_inside(p),
+                LightKind::Point { position: p, .. } | LightKind::Sphere { center: p, .. } => is_inside(p),
                 LightKind::Rect { origin, .. } => is_inside(origin),
                 LightKind::Directional { .. } => false,
             });

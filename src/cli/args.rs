@@ -72,6 +72,8 @@ pub enum Method {
     Pt,
     /// Progressive photon mapping.
     Ppm,
+    /// Recursive ray tracing, with the scene's own settings if it has any.
+    Classic,
 }
 
 fn name_and_value(text: &str) -> Result<(String, String), String> {

@@ -117,6 +117,8 @@ struct Ready {
     settings: Settings,
     /// Every file that the scene is made of.
     inputs: Vec<PathBuf>,
+    /// Whether display values lose their fraction.
+    floor: bool,
     compile_seconds: f64,
     build_seconds: f64,
 }
@@ -140,6 +142,7 @@ fn make_ready(
         None => None,
         Some(Method::Pt) => Some(ir::Method::Pt),
         Some(Method::Ppm) => Some(ir::Method::Ppm),
+        Some(Method::Classic) => Some(ir::Method::Classic),
         Some(Method::Auto) => Some(crate::plan::suited(&loaded, Some(&camera))),
     };
     let plan = crate::plan::plan(&loaded, Some(&camera), forced);
@@ -149,7 +152,8 @@ fn make_ready(
     let settings = settings(args, &checked.render, &plan, &lowered);
     let texts = session.sources.files().iter().map(|file| file.path.clone());
     let inputs = texts.chain(loaded.files).collect();
-    Some(Ready { plan, lowered, camera, settings, inputs, compile_seconds: compiled, build_seconds })
+    let floor = plan.method == ir::Method::Classic && checked.render.classic.floor;
+    Some(Ready { plan, lowered, camera, settings, inputs, floor, compile_seconds: compiled, build_seconds })
 }
 
 /// A stop flag replaces the scene's stop.
@@ -161,11 +165,12 @@ fn settings(args: &RenderArgs, render: &ir::Render, plan: &Plan, lowered: &Lower
         error: render.stop.error.map(|error| error.value),
     };
     let stop = [flags, written].into_iter().find(|stop| *stop != Stop::default());
+    let passes = if plan.is_exact { 1 } else { DEFAULT_PASSES };
     Settings {
         method: lowered.method,
         max_depth: plan.depth,
         seed: args.seed.or(render.seed.map(|seed| seed.value)).unwrap_or(0),
-        stop: stop.unwrap_or(Stop { passes: Some(DEFAULT_PASSES), ..Stop::default() }),
+        stop: stop.unwrap_or(Stop { passes: Some(passes), ..Stop::default() }),
         crop: args.crop,
     }
 }
@@ -212,6 +217,7 @@ impl Ready {
                 ir::Tone::Reinhard => Tone::Reinhard,
                 ir::Tone::Agx => Tone::Agx,
             },
+            floor: self.floor,
         }
     }
 }

@@ -107,12 +107,14 @@ impl Summary<'_> {
         match self.method {
             Method::Pt => "pt",
             Method::Ppm(_) => "ppm",
+            Method::Classic(_) => "classic",
         }
     }
 
     fn method_text(&self) -> String {
         match self.method {
             Method::Pt => "pt".to_owned(),
+            Method::Classic(_) => "classic".to_owned(),
             Method::Ppm(ppm) => format!(
                 "ppm, {} photons a pass, up to {} within {}",
                 count(u64::from(ppm.photon_count)),
@@ -133,7 +135,7 @@ impl Summary<'_> {
 
     fn photon_time(&self) -> String {
         match self.method {
-            Method::Pt => String::new(),
+            Method::Pt | Method::Classic(_) => String::new(),
             Method::Ppm(_) => format!("photons {}, ", duration(self.outcome.stats.prepare_seconds)),
         }
     }
@@ -141,10 +143,13 @@ impl Summary<'_> {
     /// The error falls as 1/√passes, so half of it takes four times as long. Photon maps also blur, by an amount that
     /// the spread between passes does not show.
     fn error_text(&self) -> String {
+        if self.plan.is_exact {
+            return "none: nothing was drawn at random".to_owned();
+        }
         let Some(e) = self.outcome.error else { return "unknown below two passes".to_owned() };
         let half = duration(self.outcome.stats.seconds * 4.0);
         let (noise, blur) = match self.method {
-            Method::Pt => ("", ""),
+            Method::Pt | Method::Classic(_) => ("", ""),
             Method::Ppm(_) => ("noise ", "; blur by the gather radius not counted"),
         };
         format!(

@@ -4,8 +4,8 @@ use super::camera::Fov;
 use super::light::EnvironmentRadiance;
 use super::material::CheckerCells;
 use super::{
-    Brightness, Camera, Curve, Exposure, Focus, Handle, ImageUse, Input, Lens, Light, LightKind, Material,
-    MaterialKind, MetalColor, Object, Projection, RevolveMethod, Scene, ShapeKind, TextureKind,
+    Brightness, Camera, Classic, Curve, Exposure, Focus, Handle, ImageUse, Input, Lens, Light, LightKind,
+    Material, MaterialKind, MetalColor, Object, Projection, RevolveMethod, Scene, ShapeKind, TextureKind,
 };
 use crate::math::{DAffine3, DVec2, DVec3, Rgb};
 use std::fmt::Write;
@@ -134,6 +134,17 @@ fn material_kind(material: &Material) -> String {
         MaterialKind::Emissive { brightness: b, color } => {
             format!("emissive {} color {}", brightness(b.value), rgb(*color))
         }
+        MaterialKind::Whitted { diffuse, specular, shininess, reflection, transmission, ior, fresnel } => {
+            format!(
+                "whitted {} specular {} shininess {} reflection {} transmission {} ior {} fresnel {fresnel}",
+                input(*diffuse),
+                input(*specular),
+                shininess.value,
+                input(*reflection),
+                input(*transmission),
+                ior.value
+            )
+        }
         MaterialKind::Mix { a, b, amount } => format!("mix {a:?} {b:?} amount {}", input(*amount)),
     }
 }
@@ -195,7 +206,12 @@ fn dump_object(out: &mut String, scene: &Scene, object: &Object) {
 
 fn light_text(light: &Light) -> String {
     let kind = match light.kind {
-        LightKind::Point { position } => format!("point {}", point(position)),
+        LightKind::Point { position, falloff } if falloff.value == LightKind::PHYSICAL => {
+            format!("point {}", point(position))
+        }
+        LightKind::Point { position, falloff } => {
+            format!("point {} falloff {:?}", point(position), falloff.value)
+        }
         LightKind::Sphere { center, radius } => {
             format!("sphere {} radius {}", point(center), number(radius.value))
         }
@@ -273,6 +289,7 @@ fn dump_render(out: &mut String, scene: &Scene) {
     part("photons", render.photons.count.map(|count| count.value.to_string()));
     part("k", render.photons.k.map(|k| k.value.to_string()));
     part("radius", render.photons.radius.map(|radius| number(radius.value)));
+    part("classic", (render.classic != Classic::default()).then(|| format!("{:?}", render.classic)));
     part("shrink", render.photons.shrink.map(|shrink| number(shrink.value)));
     if !parts.is_empty() {
         line(out, &format!("render{}", parts.concat()));

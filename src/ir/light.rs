@@ -26,6 +26,8 @@ pub enum LightKind {
     Point {
         /// Where.
         position: DVec3,
+        /// The a, b and c of the divisor a + b·d + c·d² at a distance of d metres.
+        falloff: Spanned<[f64; 3]>,
     },
     /// A glowing ball.
     Sphere {
@@ -50,6 +52,11 @@ pub enum LightKind {
         /// The way the light travels.
         direction: Spanned<DVec3>,
     },
+}
+
+impl LightKind {
+    /// As light fades: by the square of the distance.
+    pub const PHYSICAL: [f64; 3] = [0.0, 0.0, 1.0];
 }
 
 /// How bright a light is; each is multiplied by its colour.

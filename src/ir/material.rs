@@ -70,6 +70,23 @@ pub enum MaterialKind {
         /// Its colour.
         color: Rgb,
     },
+    /// The sum of the terms of recursive ray tracing.
+    Whitted {
+        /// The factor of the cosine towards each light.
+        diffuse: Input,
+        /// The factor of the highlight.
+        specular: Input,
+        /// The exponent of the highlight.
+        shininess: Spanned<f64>,
+        /// The factor of what is seen mirrored.
+        reflection: Input,
+        /// The factor of what is seen through it.
+        transmission: Input,
+        /// Refractive index, at least 1.
+        ior: Spanned<f64>,
+        /// Whether Fresnel's equations share light between the two.
+        fresnel: bool,
+    },
     /// Two materials by shares.
     Mix {
         /// Where `amount` is 0.
@@ -89,6 +106,9 @@ impl MaterialKind {
             Self::Phong { diffuse, specular, .. } => vec![*diffuse, *specular],
             Self::Metal { color: MetalColor::Color(color), roughness } => vec![*color, *roughness],
             Self::Metal { color: MetalColor::Named(..), roughness } => vec![*roughness],
+            Self::Whitted { diffuse, specular, reflection, transmission, .. } => {
+                vec![*diffuse, *specular, *reflection, *transmission]
+            }
             Self::Mix { amount, .. } => vec![*amount],
             Self::Glass { .. } | Self::Emissive { .. } => Vec::new(),
         }

@@ -10,7 +10,7 @@ pub mod light;
 pub mod material;
 pub mod shape;
 
-use crate::math::DAffine3;
+use crate::math::{DAffine3, Rgb};
 use crate::source::{Span, Spanned};
 pub use arena::{Arena, Handle};
 pub use camera::{Camera, Exposure, Film, Filter, Focus, Lens, Tone};
@@ -120,6 +120,8 @@ pub struct Render {
     pub seed: Option<Spanned<u64>>,
     /// Photon settings.
     pub photons: Photons,
+    /// Settings of recursive ray tracing.
+    pub classic: Classic,
 }
 
 /// The integrators that can be asked for.
@@ -129,6 +131,43 @@ pub enum Method {
     Pt,
     /// Progressive photon mapping.
     Ppm,
+    /// Recursive ray tracing.
+    Classic,
+}
+
+/// Settings of recursive ray tracing.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Classic {
+    /// Highlights by the half vector (Blinn 1977), not by the mirrored light (Phong 1975).
+    pub blinn: bool,
+    /// Whether things keep the light from each other.
+    pub shadows: bool,
+    /// Light on everything, times its diffuse colour.
+    pub ambient: Rgb,
+    /// Whether surfaces are lit when seen from behind.
+    pub lit_backs: bool,
+    /// Where rays go through a pixel.
+    pub pixel: PixelPoint,
+    /// Whether display values lose their fraction, rather than being rounded.
+    pub floor: bool,
+}
+
+impl Default for Classic {
+    fn default() -> Self {
+        let (pixel, ambient) = (PixelPoint::Filter, Rgb::BLACK);
+        Self { blinn: false, shadows: true, ambient, lit_backs: true, pixel, floor: false }
+    }
+}
+
+/// Where rays go through a pixel.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum PixelPoint {
+    /// Spread by the film's filter.
+    Filter,
+    /// All through its middle.
+    Center,
+    /// All through its lower left corner.
+    Corner,
 }
 
 /// When a render stops: at whichever comes first.

@@ -2,7 +2,7 @@
 
 use super::{LowerError, object_bounds};
 use crate::ir::camera::Fov;
-use crate::ir::{self, Focus, Lens};
+use crate::ir::{self, Focus, Lens, PixelPoint};
 use crate::load::Loaded;
 use crate::math::DVec3;
 use crate::render::camera::{CameraSpec, Filter, LensSpec};
@@ -19,8 +19,13 @@ pub struct Seen {
 /// The field of view of a camera that says nothing about it: 45° upwards.
 const DEFAULT_FOV: f64 = std::f64::consts::FRAC_PI_4;
 
-/// Places the camera relative to the scene's `center` and focuses it.
-pub fn camera(camera: &ir::Camera, loaded: &Loaded<'_>, center: DVec3) -> Result<Seen, LowerError> {
+/// Places the camera relative to the scene's `center` and focuses it. `pixel` may overrule the film's filter.
+pub fn camera(
+    camera: &ir::Camera,
+    pixel: PixelPoint,
+    loaded: &Loaded<'_>,
+    center: DVec3,
+) -> Result<Seen, LowerError> {
     let forward = camera.direction.value.normalize();
     let (width, height) = camera.film.size.value;
     let aspect = f64::from(width) / f64::from(height);
@@ -47,7 +52,11 @@ pub fn camera(camera: &ir::Camera, loaded: &Loaded<'_>, center: DVec3) -> Result
         lens,
         width,
         height,
-        filter: filter(camera.film.filter.value),
+        filter: match pixel {
+            PixelPoint::Filter => filter(camera.film.filter.value),
+            PixelPoint::Center => Filter::Box { radius: 0.0 },
+            PixelPoint::Corner => Filter::Corner,
+        },
     };
     let distance = match lens {
         Some(lens) => f64::from(lens.focus_distance),

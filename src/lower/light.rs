@@ -6,7 +6,7 @@ use crate::ir::light::{Brightness, LightKind};
 use crate::ir::{self};
 use crate::math::{DAffine3, DVec3, Rgb};
 use crate::render::bsdf::Material;
-use crate::render::light::Light;
+use crate::render::light::{Falloff, Light};
 use crate::render::shape::{Solid, SolidKind};
 use std::f64::consts::PI;
 
@@ -15,9 +15,10 @@ impl Lowering<'_> {
     pub(super) fn light(&mut self, light: &ir::Light) -> Option<Light> {
         let source = self.source(light.span);
         match &light.kind {
-            LightKind::Point { position } => {
+            LightKind::Point { position, falloff } => {
                 let p = (*position - self.center).as_vec3();
-                return Some(Light::Point { p, intensity: intensity(light) });
+                let falloff = Falloff(falloff.value.map(|x| x as f32));
+                return Some(Light::Point { p, intensity: intensity(light), falloff });
             }
             LightKind::Directional { direction } => {
                 let direction = direction.value.normalize().as_vec3();

@@ -124,6 +124,23 @@ impl<'a> Materials<'a> {
             MaterialKind::Emissive { brightness, color } => {
                 Material::Emissive { radiance: radiance(brightness.value, *color), two_sided: false }
             }
+            MaterialKind::Whitted {
+                diffuse,
+                specular,
+                shininess,
+                reflection,
+                transmission,
+                ior,
+                fresnel,
+            } => Material::Whitted {
+                diffuse: self.input(diffuse),
+                specular: self.input(specular),
+                shininess: shininess.value as f32,
+                reflection: self.input(reflection),
+                transmission: self.input(transmission),
+                ior: ior.value as f32,
+                fresnel: *fresnel,
+            },
             MaterialKind::Mix { a, b, amount } => {
                 let (a, b) = (self.of_scene(*a, radiance), self.of_scene(*b, radiance));
                 Material::Mix { a, b, amount: self.input(amount) }

@@ -17,6 +17,8 @@ use crate::ir;
 use crate::load::Loaded;
 use crate::math::DVec3;
 use crate::plan::Plan;
+use crate::render::camera::Camera;
+use crate::render::integrator::{ClassicSettings, Shading};
 use crate::render::shape::{Mesh, Solid, SourceId};
 use crate::render::world::{Parts, World};
 use crate::render::{Method, PpmSettings};
@@ -63,22 +65,32 @@ pub fn lower(
     }
     let lights = loaded.scene.lights.iter().filter_map(|light| lowering.light(light)).collect();
     let environment = loaded.scene.environment.as_ref().and_then(|e| lowering.materials.environment(e));
-    let camera = camera::camera(camera, loaded, center).map_err(|error| problems.push(error)).ok();
+    let pixel = match plan.method {
+        ir::Method::Classic => loaded.scene.render.classic.pixel,
+        _ => ir::PixelPoint::Filter,
+    };
+    let camera = camera::camera(camera, pixel, loaded, center).map_err(|error| problems.push(error)).ok();
 
     let Lowering { materials, meshes, solids, sources, .. } = lowering;
     let (materials, textures, failed) = materials.finish();
     let any_failed = !failed.is_empty();
     failed.into_iter().for_each(|error| problems.push(error));
     let camera = camera.filter(|_| !any_failed)?;
-    let method = method(plan, &camera);
-    let camera = crate::render::camera::Camera::new(camera.spec);
+    let method = method(plan, &loaded.scene.render.classic, &camera);
+    let camera = Camera::new(camera.spec);
     let world = World::new(Parts { meshes, solids, materials, textures, lights, environment, camera });
     Some(Lowered { world, method, sources, center })
 }
 
-fn method(plan: &Plan, camera: &camera::Seen) -> Method {
+fn method(plan: &Plan, classic: &ir::Classic, camera: &camera::Seen) -> Method {
     match plan.method {
         ir::Method::Pt => Method::Pt,
+        ir::Method::Classic => Method::Classic(ClassicSettings {
+            shading: if classic.blinn { Shading::Blinn } else { Shading::Phong },
+            shadows: classic.shadows,
+            ambient: classic.ambient,
+            lit_backs: classic.lit_backs,
+        }),
         ir::Method::Ppm => Method::Ppm(PpmSettings {
             photon_count: plan.photon_count,
             k: plan.photon_k,

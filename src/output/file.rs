@@ -177,7 +177,7 @@ mod tests {
     use super::*;
     use crate::output::{Exposure, Tone};
 
-    const DISPLAY: Display = Display { exposure: Exposure::Ev(0.0), tone: Tone::Srgb };
+    const DISPLAY: Display = Display { exposure: Exposure::Ev(0.0), tone: Tone::Srgb, floor: false };
 
     fn frame() -> Frame {
         let radiance = vec![Rgb::new(1.0, 0.5, 0.0), Rgb::gray(4.0), Rgb::BLACK, Rgb::gray(0.25)];

@@ -31,6 +31,8 @@ pub struct Display {
     pub exposure: Exposure,
     /// Curve.
     pub tone: Tone,
+    /// Whether display values lose their fraction, rather than being rounded to the nearest of 256 steps.
+    pub floor: bool,
 }
 
 impl Display {
@@ -40,6 +42,8 @@ impl Display {
             Exposure::Ev(ev) => float::pow(2.0, ev),
             Exposure::Auto => auto_factor(radiance),
         };
+        let half = if self.floor { 0.0 } else { 0.5 };
+        let quantise = |color: Rgb| color.to_array().map(|x| (x * 255.0 + half) as u8);
         radiance.iter().map(|&pixel| quantise(self.tone.curve(pixel * factor))).collect()
     }
 }
@@ -67,10 +71,6 @@ fn auto_factor(radiance: &[Rgb]) -> f32 {
         count += 1;
     }
     if count == 0 { 1.0 } else { (MIDDLE_GRAY / libm::exp(sum / f64::from(count))) as f32 }
-}
-
-fn quantise(color: Rgb) -> [u8; 3] {
-    color.to_array().map(|x| (x * 255.0 + 0.5) as u8)
 }
 
 /// AgX: into its own primaries, a log₂ range of 16.5 stops, a polynomial S-curve, and back (Wrensch 2023).
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn auto_exposure_brings_an_even_picture_to_middle_gray() {
-        let display = Display { exposure: Exposure::Auto, tone: Tone::Linear };
+        let display = Display { exposure: Exposure::Auto, tone: Tone::Linear, floor: false };
         for level in [1e-3, 1.0, 500.0] {
             assert_eq!(display.develop(&[Rgb::gray(level); 4])[0], [46; 3], "at {level}"); // 0.18 · 255
         }
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn one_stop_doubles() {
-        let linear = |ev| Display { exposure: Exposure::Ev(ev), tone: Tone::Linear };
+        let linear = |ev| Display { exposure: Exposure::Ev(ev), tone: Tone::Linear, floor: false };
         assert_eq!(linear(1.0).develop(&[Rgb::gray(0.2)]), [[102; 3]]);
     }
 }

@@ -146,6 +146,15 @@ impl Found<'_> {
             }
             MaterialKind::Glass { .. } => &[Effect::Specular, Effect::Dielectrics, Effect::Absorption],
             MaterialKind::Emissive { .. } => &[Effect::MeshLights],
+            MaterialKind::Whitted { reflection, transmission, .. } => {
+                if is_black(transmission) && is_black(reflection) {
+                    &[]
+                } else if is_black(transmission) {
+                    &[Effect::Specular]
+                } else {
+                    &[Effect::Specular, Effect::Dielectrics]
+                }
+            }
             MaterialKind::Mix { .. } => &[],
         };
         called.iter().for_each(|&effect| self.add(effect, material.span));
@@ -203,4 +212,8 @@ impl Found<'_> {
             self.uses.push(EffectUse { effect: Effect::Caustics, ..specular });
         }
     }
+}
+
+fn is_black(input: &Input) -> bool {
+    matches!(input, Input::Constant(color) if color.is_black())
 }

@@ -7,6 +7,21 @@ use thiserror::Error;
 /// A doubt about a method.
 #[derive(Debug, Error, Diagnostic)]
 pub enum PlanWarning {
+    /// Terms of recursive ray tracing that no simulation of light can honour.
+    #[error("{what} means something to `method: classic` alone")]
+    #[diagnostic(
+        code(snell::plan::classic_only),
+        help(
+            "write `render {{ method: classic }}`, or say what is physical: `phong`, `mirror`, `glass`, `falloff: physical`"
+        )
+    )]
+    ClassicOnly {
+        /// In words.
+        what: &'static str,
+        /// Where.
+        #[label("is not how light behaves")]
+        used: Span,
+    },
     /// Photons are finite in number, the plane is not.
     #[error("photons from infinitely far cannot cover a plane without end: `ppm` makes it too dark")]
     #[diagnostic(

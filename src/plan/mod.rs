@@ -5,7 +5,7 @@ mod error;
 
 use crate::diag::Problems;
 use crate::ir::light::LightKind;
-use crate::ir::{Camera, Method, ShapeKind};
+use crate::ir::{Camera, MaterialKind, Method, PixelPoint, ShapeKind};
 use crate::load::Loaded;
 use crate::source::Span;
 pub use effects::{Effect, EffectUse};
@@ -30,6 +30,8 @@ pub struct Plan {
     pub photon_shrink: f64,
     /// The most vertices of a path.
     pub depth: u32,
+    /// Whether every pass would be like the first, because nothing is drawn at random.
+    pub is_exact: bool,
 }
 
 impl Plan {
@@ -47,6 +49,8 @@ const PHOTON_K: u32 = 60;
 const PHOTON_SHRINK: f64 = 2.0 / 3.0;
 /// The most vertices of a path, unless the scene says otherwise; roulette ends nearly all before.
 const DEPTH: u32 = 64;
+/// The same for recursive ray tracing, whose tree of rays may double at every vertex.
+const CLASSIC_DEPTH: u32 = 10;
 
 /// Derives the plan of a scene seen by `camera`. `forced` overrides the scene's method.
 pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, forced: Option<Method>) -> Plan {
@@ -59,6 +63,11 @@ pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, forced: Option<Method>
         (None, None) => choose(loaded, &effects),
     };
     let photons = &render.photons;
+    let depth = if method == Method::Classic { CLASSIC_DEPTH } else { DEPTH };
+    let draws =
+        |used: &EffectUse| matches!(used.effect, Effect::LensBlur | Effect::SoftShadows | Effect::MeshLights);
+    let is_exact =
+        method == Method::Classic && render.classic.pixel != PixelPoint::Filter && !effects.iter().any(draws);
     Plan {
         effects,
         method,
@@ -67,14 +76,36 @@ pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, forced: Option<Method>
         photon_k: photons.k.map_or(PHOTON_K, |k| k.value),
         photon_radius: photons.radius.map(|radius| radius.value),
         photon_shrink: photons.shrink.map_or(PHOTON_SHRINK, |shrink| shrink.value),
-        depth: render.depth.map_or(DEPTH, |depth| depth.value),
+        depth: render.depth.map_or(depth, |depth| depth.value),
+        is_exact,
     }
 }
 
 /// Notes what the method of `plan` cannot do justice to.
 pub fn warn(plan: &Plan, loaded: &Loaded<'_>, problems: &mut Problems) {
+    if plan.method != Method::Classic {
+        classic_only(loaded, problems);
+    }
     if let (Method::Ppm, Some((light, plane))) = (plan.method, endless(loaded)) {
         problems.push(PlanWarning::EndlessPhotons { light, plane });
+    }
+}
+
+/// What means nothing to a method that simulates light.
+fn classic_only(loaded: &Loaded<'_>, problems: &mut Problems) {
+    let scene = loaded.scene;
+    let mut report = |what, used| problems.push(PlanWarning::ClassicOnly { what, used });
+    for material in scene.materials.iter() {
+        if matches!(material.kind, MaterialKind::Whitted { .. }) {
+            report("a `whitted` material", material.span);
+        }
+    }
+    for light in &scene.lights {
+        if let LightKind::Point { falloff, .. } = light.kind
+            && falloff.value != LightKind::PHYSICAL
+        {
+            report("such a falloff", falloff.span);
+        }
     }
 }
 

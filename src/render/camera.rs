@@ -57,6 +57,8 @@ pub enum Filter {
         /// The radius of the disk where it is cut off, in pixels.
         radius: f32,
     },
+    /// None: every sample lies at the pixel's lower left corner, as in the first programs of many a course.
+    Corner,
 }
 
 impl Filter {
@@ -73,6 +75,7 @@ impl Filter {
                 let (sin_phi, cos_phi) = float::sin_cos(TAU * u.y);
                 Vec2::new(r * cos_phi, r * sin_phi)
             }
+            Self::Corner => Vec2::new(-0.5, 0.5),
         }
     }
 }

@@ -4,7 +4,7 @@
 //! film holds the same bits for any number of threads, and it always holds whole passes.
 
 use super::film::{ErrorEstimate, Film, Region, Tile};
-use super::integrator::{Counters, Integrator, Pass, PathTracer, PhotonMapper};
+use super::integrator::{Classic, ClassicSettings, Counters, Integrator, Pass, PathTracer, PhotonMapper};
 use super::sampler::Dim;
 use super::world::World;
 use crate::math::Vec2;
@@ -18,6 +18,8 @@ pub enum Method {
     Pt,
     /// Progressive photon mapping.
     Ppm(PpmSettings),
+    /// Recursive ray tracing.
+    Classic(ClassicSettings),
 }
 
 /// Settings of progressive photon mapping.
@@ -133,6 +135,9 @@ pub struct Outcome {
 pub fn render(world: &World, settings: &Settings, monitor: &dyn Monitor) -> Outcome {
     match settings.method {
         Method::Pt => run(PathTracer::new(world, settings.max_depth), world, settings, monitor),
+        Method::Classic(classic) => {
+            run(Classic::new(world, classic, settings.max_depth), world, settings, monitor)
+        }
         Method::Ppm(ppm) => run(PhotonMapper::new(world, ppm, settings.max_depth), world, settings, monitor),
     }
 }

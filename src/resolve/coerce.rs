@@ -20,8 +20,12 @@ impl<'a> Resolver<'a> {
     pub(super) fn eval_as(&mut self, expr: &'a Expr, ty: Type, env: &Env<'a>) -> Value<'a> {
         match (ty, &expr.kind) {
             (_, ExprKind::Name(name)) if env.find(name).is_none() => self.word_as(name, expr.span, ty, env),
-            (Type::Choice(words), ExprKind::Name(name)) if words.contains(&name.as_str()) => {
-                find_word(words, name).map_or(Value::Poison, Value::Word)
+            (_, ExprKind::Name(name)) if ty.words().is_some_and(|words| words.contains(&name.as_str())) => {
+                ty.words().and_then(|words| find_word(words, name)).map_or(Value::Poison, Value::Word)
+            }
+            (Type::Method, ExprKind::Object(object)) if object.kind.value == "classic" => {
+                let block = schema::block("classic").expect("declared in the registry");
+                Value::Block(std::rc::Rc::new(self.read(block, object.kind.span, &object.body, env)))
             }
             (Type::Block(kind), ExprKind::Block(body)) => {
                 let block = schema::block(kind).expect("types name declared blocks");
@@ -49,11 +53,13 @@ impl<'a> Resolver<'a> {
             let block = schema::block(kind).expect("declared in the registry");
             this.block(block, used, &EMPTY, env)
         };
-        match (ty, name) {
-            (Type::Choice(words), _) => match find_word(words, name) {
+        if let Some(words) = ty.words() {
+            return match find_word(words, name) {
                 Some(word) => Value::Word(word),
                 None => self.unknown_word(name, words, used),
-            },
+            };
+        }
+        match (ty, name) {
             (Type::Exposure, "auto") => Value::Word("auto"),
             (Type::Projection, "uv") => Value::Projection(ir::Projection::Uv),
             (Type::Lens, "pinhole") => lens(self, "pinhole"),
@@ -71,7 +77,7 @@ impl<'a> Resolver<'a> {
     }
 
     fn unknown_word(&mut self, word: &str, words: &'static [&'static str], used: Span) -> Value<'a> {
-        if words.contains(&"ppm") && ["hybrid", "classic"].contains(&word) {
+        if words == Type::METHODS && word == "hybrid" {
             let help = "write `method: auto`, or choose `pt` or `ppm`".to_owned();
             return self.poison(Error::NotYet { word: word.to_owned(), used, help });
         }
@@ -125,7 +131,10 @@ impl<'a> Resolver<'a> {
             | (Type::List | Type::Outlines, value @ Value::List(_))
             | (Type::Block(_), value @ Value::Block(_))
             | (Type::ColorInput | Type::NumberInput | Type::SkyInput, value @ Value::Texture(_)) => value,
-            (Type::Choice(words), Value::Word(word)) if words.contains(&word) => Value::Word(word),
+            (_, Value::Word(word)) if ty.words().is_some_and(|words| words.contains(&word)) => {
+                Value::Word(word)
+            }
+            (Type::Falloff, value @ Value::Tuple(_)) => self.plain_triple(value, ty, span),
             (Type::Outlines, value @ Value::Curve(_)) => Value::List([value].into()),
             (Type::Point | Type::Offset, value @ Value::Tuple(_)) => {
                 self.triple_as(value, Type::Length, ty, span)
@@ -195,6 +204,12 @@ impl<'a> Resolver<'a> {
         let plain = parts.iter().all(|part| is(part, Dimension::NONE));
         let lengths = parts.iter().all(|part| is(part, Dimension::LENGTH));
         if parts.len() == 3 && (plain || lengths) { value } else { self.refuse(&value, Type::Vector, span) }
+    }
+
+    fn plain_triple(&mut self, value: Value<'a>, ty: Type, span: Span) -> Value<'a> {
+        let Value::Tuple(parts) = &value else { return Value::Poison };
+        let plain = |part: &Value| matches!(part, Value::Number(q) if q.dimension == Dimension::NONE);
+        if parts.len() == 3 && parts.iter().all(plain) { value } else { self.refuse(&value, ty, span) }
     }
 
     fn pair(&mut self, value: Value<'a>, ty: Type, span: Span) -> Value<'a> {

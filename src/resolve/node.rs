@@ -187,7 +187,9 @@ impl<'a> Resolver<'a> {
     fn moved(&mut self, light: &ir::Light, around: &Surroundings) -> Option<LightKind> {
         let world = around.world;
         Some(match light.kind {
-            LightKind::Point { position } => LightKind::Point { position: world.transform_point3(position) },
+            LightKind::Point { position, falloff } => {
+                LightKind::Point { position: world.transform_point3(position), falloff }
+            }
             LightKind::Sphere { center, radius } => {
                 let Some(scale) = uniform_scale(&world) else {
                     let transform = around.steps.first().map(|step| step.span);

@@ -12,6 +12,12 @@ const POINT: &[Field] = &[
     POWER,
     field("intensity", Type::Radiance, "W/sr, times `color`, instead of `power`."),
     COLOR,
+    field(
+        "falloff",
+        Type::Falloff,
+        "How it fades with the distance d in metres: `none`, or (a, b, c) for 1 / (a + b·d + c·d²); for `method: classic` alone.",
+    )
+    .or_word("physical"),
 ];
 
 const SPHERE: &[Field] = &[

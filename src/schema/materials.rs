@@ -43,6 +43,22 @@ const EMISSIVE: &[Field] = &[
     field("color", Type::LightColor, "The colour of the light.").or(1.0),
 ];
 
+const WHITTED: &[Field] = &[
+    field("diffuse", Type::ColorInput, "The factor of the cosine towards each light.").or(0.5),
+    field("specular", Type::ColorInput, "The factor of the highlight.").or(0.0),
+    field("shininess", Type::Number, "The exponent of the highlight.")
+        .or(0.0)
+        .within(Range::closed(0.0, 1e5)),
+    field("reflection", Type::ColorInput, "The factor of what is seen mirrored.").or(0.0),
+    field("transmission", Type::ColorInput, "The factor of what is seen through it.").or(0.0),
+    field("ior", Type::Number, "Index of refraction.")
+        .or(1.0)
+        .within(Range::at_least(1.0).physical())
+        .like("1.5"),
+    field("fresnel", Type::Bool, "Whether the angle shares light between reflection and transmission.")
+        .or_bool(false),
+];
+
 const MIX: &[Field] = &[
     field("a", Type::Material, "The material where `amount` is 0.").required().like("gold"),
     field("b", Type::Material, "The material where it is 1.").required().like("glass { ior: 1.5 }"),
@@ -79,6 +95,12 @@ pub(super) const BLOCKS: &[Block] = &[
         EMISSIVE,
         "Shines to the side of the normal, outwards from a closed shape.",
         "emissive { power: 60W, color: 3200K }",
+    ),
+    material(
+        "whitted",
+        WHITTED,
+        "The sum of the terms of recursive ray tracing (Whitted 1980), for `method: classic` alone.",
+        "whitted { diffuse: #663311, specular: 0.3, shininess: 20, reflection: 0.2 }",
     ),
     material("mix", MIX, "Two materials by shares.", "mix { a: gold, b: glass { ior: 1.5 }, amount: 0.3 }"),
 ];

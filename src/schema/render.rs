@@ -2,10 +2,13 @@
 
 use super::{Area, Block, Field, Range, Type, field};
 
-const METHODS: Type = Type::Choice(&["auto", "pt", "ppm"]);
-
 const RENDER: &[Field] = &[
-    field("method", METHODS, "Path tracing, photon mapping, or whichever suits.").or_word("auto"),
+    field(
+        "method",
+        Type::Method,
+        "Path tracing, photon mapping, whichever of them suits, or recursive ray tracing.",
+    )
+    .or_word("auto"),
     field("stop", Type::Stop, "When it is done: `samples`, `passes`, `time` or `error`, joined by `or`."),
     field("depth", Type::Int, "The most vertices of a path.")
         .or(64.0)
@@ -32,6 +35,21 @@ const PHOTONS: &[Field] = &[
         .like("0.67"),
 ];
 
+const CLASSIC: &[Field] = &[
+    field("shading", Type::Choice(&["phong", "blinn"]), "The formula of highlights.").or_word("phong"),
+    field("shadows", Type::Bool, "Whether things keep the light from each other.").or_bool(true),
+    field("ambient", Type::Color, "Light on everything; times its diffuse colour.").or(0.0),
+    field("backs", Type::Choice(&["lit", "dark"]), "How surfaces look from behind.").or_word("lit"),
+    field(
+        "pixel",
+        Type::Choice(&["filter", "center", "corner"]),
+        "Where rays go: by the film's filter, or all through one point of a pixel.",
+    )
+    .or_word("filter"),
+    field("quantise", Type::Choice(&["round", "floor"]), "How display values become whole numbers.")
+        .or_word("round"),
+];
+
 pub(super) const BLOCKS: &[Block] = &[
     Block {
         kind: "render",
@@ -39,6 +57,13 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "How the picture is computed; all of it may be left to the compiler.",
         example: "render { method: auto, stop: error(1%) or time(5min) }",
         own: RENDER,
+    },
+    Block {
+        kind: "classic",
+        area: Area::Render,
+        doc: "Recursive ray tracing, as courses teach it: no light between matt surfaces, no law of energy.",
+        example: "method: classic { shading: blinn, ambient: 0.1 }",
+        own: CLASSIC,
     },
     Block {
         kind: "photons",

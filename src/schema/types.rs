@@ -79,6 +79,10 @@ pub enum Type {
     Outlines,
     /// A list of anything.
     List,
+    /// An integrator: one of [`Type::METHODS`], or `classic { .. }`.
+    Method,
+    /// How the light of a point fades: one of [`Type::FALLOFFS`], or three numbers.
+    Falloff,
     /// One of these words.
     Choice(&'static [&'static str]),
     /// A block without a head, with the fields that this kind declares.
@@ -86,6 +90,11 @@ pub enum Type {
 }
 
 impl Type {
+    /// The integrators.
+    pub const METHODS: &'static [&'static str] = &["auto", "pt", "ppm", "classic"];
+    /// The laws of fading that have a name.
+    pub const FALLOFFS: &'static [&'static str] = &["physical", "none"];
+
     /// The types that a `param` or a function may name.
     pub const NAMED: &'static [(&'static str, Self)] = &[
         ("int", Self::Int),
@@ -116,10 +125,21 @@ impl Type {
         Self::NAMED.iter().find(|(known, _)| *known == name).map(|&(_, ty)| ty)
     }
 
+    /// The words that it takes, if those are all that it takes for a word.
+    pub const fn words(self) -> Option<&'static [&'static str]> {
+        match self {
+            Self::Choice(words) => Some(words),
+            Self::Method => Some(Self::METHODS),
+            Self::Falloff => Some(Self::FALLOFFS),
+            _ => None,
+        }
+    }
+
     /// What is wanted, with its article: "a length".
     pub fn noun(self) -> String {
         match self {
             Self::Choice(words) => format!("one of {}", quoted(words)),
+            Self::Method => format!("one of {}", quoted(Self::METHODS)),
             Self::Block(_) => "a block in braces".to_owned(),
             _ => self.plain_noun().to_owned(),
         }
@@ -165,7 +185,8 @@ impl Type {
             Self::Outline => "an outline",
             Self::Outlines => "a list of outlines",
             Self::List => "a list",
-            Self::Choice(_) | Self::Block(_) => "a word",
+            Self::Falloff => "a law of falloff",
+            Self::Choice(_) | Self::Method | Self::Block(_) => "a word",
         }
     }
 
@@ -208,6 +229,8 @@ impl Type {
             Self::Outline => "polygon [(0m, 0m), (1m, 0m), (0m, 1m)]",
             Self::Outlines => "[polygon [(0m, 0m), (1m, 0m), (0m, 1m)]]",
             Self::List => "[1, 2, 3]",
+            Self::Method => "auto",
+            Self::Falloff => "(1, 0, 0.2)",
             Self::Choice(words) => words[0],
             Self::Block(_) => "{ .. }",
         }

@@ -3,7 +3,7 @@
 use super::statistics::points;
 use super::worlds::{camera, cornell, diffuse, emissive, empty, mean, quad, sphere, trace};
 use snell::math::{DAffine3, DMat3, DVec3, Rgb, Vec2, Vec3};
-use snell::render::light::{Environment, EnvironmentRadiance, Light, Sky};
+use snell::render::light::{Environment, EnvironmentRadiance, Falloff, Light, Sky};
 use snell::render::shape::{MaterialId, Solid, SolidKind, SourceId};
 use snell::render::texture::Image;
 use snell::render::{Parts, World};
@@ -30,7 +30,11 @@ fn assert_close(value: f64, expected: f64, tolerance: f64) {
 #[test]
 fn irradiance_from_a_point_light() {
     let mut parts = floor();
-    parts.lights = vec![Light::Point { p: Vec3::new(0.0, 2.0, 1.0), intensity: Rgb::gray(7.0) }];
+    parts.lights = vec![Light::Point {
+        p: Vec3::new(0.0, 2.0, 1.0),
+        intensity: Rgb::gray(7.0),
+        falloff: Falloff::PHYSICAL,
+    }];
     let d2 = 5.0_f64;
     assert_close(irradiance(parts), 7.0 * (2.0 / d2.sqrt()) / d2, 1e-3);
 }
@@ -189,7 +193,7 @@ fn the_centre_of_a_sky_is_ahead_and_its_right_is_to_the_right() {
 fn photons_carry_the_power_of_their_light() {
     let mut parts = cornell(16, true);
     parts.lights = vec![
-        Light::Point { p: Vec3::ONE, intensity: Rgb::gray(2.0) },
+        Light::Point { p: Vec3::ONE, intensity: Rgb::gray(2.0), falloff: Falloff::PHYSICAL },
         Light::Directional { direction: Vec3::NEG_Y, irradiance: Rgb::gray(2.0) },
     ];
     parts.environment = Some(sun_map());

@@ -6,7 +6,7 @@ use super::worlds::{
 use snell::math::{Rgb, Vec3};
 use snell::render::bsdf::Material;
 use snell::render::film::{Film, Region};
-use snell::render::light::{Environment, EnvironmentRadiance, Light};
+use snell::render::light::{Environment, EnvironmentRadiance, Falloff, Light};
 use snell::render::shape::MaterialId;
 use snell::render::{Monitor, Progress, Settings, Stop, StoppedBy, World, render};
 
@@ -57,7 +57,10 @@ fn a_point_light_in_a_closed_sphere() {
         parts.materials = vec![diffuse(0.5)];
         parts.solids = vec![sphere(Vec3::ZERO, 1.0, 0)];
         let intensity = Rgb::gray(std::f32::consts::PI / positions.len() as f32);
-        parts.lights = positions.into_iter().map(|p| Light::Point { p, intensity }).collect();
+        parts.lights = positions
+            .into_iter()
+            .map(|p| Light::Point { p, intensity, falloff: Falloff::PHYSICAL })
+            .collect();
         assert_all_one(&trace(parts, 256, 1_000), 5e-3, 0.1);
     }
 }
@@ -128,7 +131,7 @@ fn depth_counts_vertices_up_to_the_light() {
         let mut parts = empty(camera(Vec3::Y, Vec3::NEG_Y, 0.1, 4));
         parts.materials = vec![diffuse(1.0)];
         parts.meshes = vec![quad(Vec3::new(-1.0, 0.0, -1.0), Vec3::Z * 2.0, Vec3::X * 2.0, 0)];
-        parts.lights = vec![Light::Point { p: Vec3::Y, intensity: Rgb::WHITE }];
+        parts.lights = vec![Light::Point { p: Vec3::Y, intensity: Rgb::WHITE, falloff: Falloff::PHYSICAL }];
         mean(&trace(parts, 1, max_depth))
     };
     assert_eq!(lit_floor(1), 0.0);

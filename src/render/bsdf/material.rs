@@ -62,6 +62,24 @@ pub enum Material {
         /// Whether the side against the normal shines too.
         two_sided: bool,
     },
+    /// The illumination model of recursive ray tracing (Whitted 1980). Nothing holds it to keep the energy; the other
+    /// integrators see its diffuse part alone.
+    Whitted {
+        /// The factor of the cosine towards each light.
+        diffuse: Input,
+        /// The factor of the highlight.
+        specular: Input,
+        /// The exponent of the highlight.
+        shininess: f32,
+        /// The factor of what the mirrored ray sees.
+        reflection: Input,
+        /// The factor of what the refracted ray sees.
+        transmission: Input,
+        /// The refractive index of the side against the normal; at least 1.
+        ior: f32,
+        /// Whether Fresnel's equations, as Schlick 1994 fits them, share light between the two rays.
+        fresnel: bool,
+    },
     /// Two materials, side by side too finely to tell apart.
     Mix {
         /// The one at amount 0.
@@ -153,14 +171,14 @@ impl Materials {
     /// The refractive index inside a material; `None` for what has no inside.
     pub fn ior(&self, id: MaterialId) -> Option<f32> {
         match *self.get(id) {
-            Material::Glass { ior, .. } => Some(ior),
+            Material::Glass { ior, .. } | Material::Whitted { ior, .. } => Some(ior),
             _ => None,
         }
     }
 
     fn add_lobes(&self, id: MaterialId, share: f32, surface: &SurfacePoint, bsdf: &mut Bsdf) {
         match *self.get(id) {
-            Material::Diffuse { color } => {
+            Material::Diffuse { color } | Material::Whitted { diffuse: color, .. } => {
                 bsdf.add(Lobe::Lambert { albedo: self.color(color, surface) * share });
             }
             Material::Phong { diffuse, specular, shininess } => {
@@ -196,6 +214,30 @@ impl Materials {
         }
     }
 
+    /// The materials that one comes down to at a point, each with its share.
+    pub fn parts(&self, id: MaterialId, surface: &SurfacePoint) -> Vec<(f32, &Material)> {
+        let mut parts = Vec::new();
+        self.add_parts(id, 1.0, surface, &mut parts);
+        parts
+    }
+
+    fn add_parts<'a>(
+        &'a self,
+        id: MaterialId,
+        share: f32,
+        surface: &SurfacePoint,
+        parts: &mut Vec<(f32, &'a Material)>,
+    ) {
+        match self.get(id) {
+            Material::Mix { a, b, amount } => {
+                let amount = self.scalar(*amount, surface).clamp(0.0, 1.0);
+                self.add_parts(*a, share * (1.0 - amount), surface, parts);
+                self.add_parts(*b, share * amount, surface, parts);
+            }
+            part => parts.push((share, part)),
+        }
+    }
+
     /// The emission of a material. A mix by a texture counts by the texture's mean, wherever light is found or drawn.
     fn find_emission(&self, id: MaterialId) -> Emission {
         match *self.get(id) {
@@ -215,7 +257,8 @@ impl Materials {
         }
     }
 
-    fn color(&self, input: Input, surface: &SurfacePoint) -> Rgb {
+    /// An input at a point.
+    pub fn color(&self, input: Input, surface: &SurfacePoint) -> Rgb {
         match input {
             Input::Constant(color) => color,
             Input::Texture(id) => self.textures[id.0 as usize].eval(surface),
@@ -236,9 +279,10 @@ pub fn lobe_count(materials: &[Material], id: MaterialId) -> usize {
     let glossy = |part: &&Material| {
         matches!(part, Material::Phong { .. } | Material::Metal { .. } | Material::Glass { .. })
     };
-    any(|part| matches!(part, Material::Diffuse { .. } | Material::Phong { .. }))
-        + any(|part| matches!(part, Material::Mirror { .. }))
-        + parts.iter().filter(glossy).count()
+    let matt = |part: &Material| {
+        matches!(part, Material::Diffuse { .. } | Material::Phong { .. } | Material::Whitted { .. })
+    };
+    any(matt) + any(|part| matches!(part, Material::Mirror { .. })) + parts.iter().filter(glossy).count()
 }
 
 /// The materials that a mix comes down to.

@@ -1,8 +1,10 @@
 //! How the radiance along a camera ray is found.
 
+mod classic;
 mod path;
 mod ppm;
 
+pub use classic::{Classic, ClassicSettings, Shading};
 pub use path::PathTracer;
 pub use ppm::{PhotonMapper, Schedule};
 

@@ -25,6 +25,8 @@ pub enum Light {
         p: Vec3,
         /// Radiant intensity, in W·sr⁻¹.
         intensity: Rgb,
+        /// How it fades; all but recursive ray tracing take [`Falloff::PHYSICAL`] only.
+        falloff: Falloff,
     },
     /// Shines along one direction from infinitely far away.
     Directional {
@@ -42,6 +44,21 @@ pub enum Light {
     },
     /// All directions at infinity.
     Environment(Box<Sky>),
+}
+
+/// How the light of a point fades with the distance d: it is divided by a + b·d + c·d².
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Falloff(pub [f32; 3]);
+
+impl Falloff {
+    /// As light does: by the square of the distance.
+    pub const PHYSICAL: Self = Self([0.0, 0.0, 1.0]);
+
+    /// What light is divided by at this distance, in metres.
+    fn divisor(self, distance: f32) -> f32 {
+        let [a, b, c] = self.0;
+        a + b * distance + c * (distance * distance)
+    }
 }
 
 /// A direction drawn towards a light.
@@ -108,12 +125,12 @@ impl Light {
     /// Draws a direction in which `from` may see the light; `None` where it does not shine.
     pub fn sample_li(&self, geometry: &Geometry, from: Vec3, u: Vec2) -> Option<LightSample> {
         match self {
-            Self::Point { p, intensity } => {
+            Self::Point { p, intensity, falloff } => {
                 let to = *p - from;
                 let distance = to.length();
                 let wi = to.try_normalize()?;
                 let end = LightEnd::At { p: *p, p_error: Vec3::ZERO, n: Vec3::ZERO, distance };
-                let radiance = *intensity / (distance * distance);
+                let radiance = *intensity / falloff.divisor(distance);
                 Some(LightSample { wi, radiance, pdf: 1.0, delta: true, end })
             }
             Self::Directional { direction, irradiance } => Some(LightSample {
@@ -148,7 +165,7 @@ impl Light {
     /// Light from infinity starts on a disk that faces the ball around all bounded geometry.
     pub fn sample_emission(&self, geometry: &Geometry, u_pos: Vec2, u_dir: Vec2) -> EmissionSample {
         match self {
-            Self::Point { p, intensity } => {
+            Self::Point { p, intensity, .. } => {
                 let ray = Ray::new(*p, warp::square_to_uniform_sphere(u_dir));
                 EmissionSample { ray, weight: *intensity * (4.0 * PI) }
             }
@@ -168,6 +185,11 @@ impl Light {
                 emission_from_infinity(geometry, -towards, sky.radiance(towards) / pdf, u_pos)
             }
         }
+    }
+
+    /// Whether it has no size, so that only a look straight at it finds it.
+    pub fn is_delta(&self) -> bool {
+        matches!(self, Self::Point { .. } | Self::Directional { .. })
     }
 
     /// The power it sends into the scene, in watts; infinite for an endless surface.

@@ -71,7 +71,7 @@ impl<'a> Resolver<'a> {
 fn light_kind(fields: &Fields) -> Option<LightKind> {
     let point = |name| fields.triple(name).map(|point| point.value);
     Some(match fields.block.kind {
-        "light point" => LightKind::Point { position: point("position")? },
+        "light point" => LightKind::Point { position: point("position")?, falloff: falloff(fields) },
         "light sphere" => LightKind::Sphere { center: point("center")?, radius: fields.number("radius")? },
         "light rect" => LightKind::Rect {
             origin: point("origin")?,
@@ -81,4 +81,14 @@ fn light_kind(fields: &Fields) -> Option<LightKind> {
         },
         _ => LightKind::Directional { direction: fields.triple("direction")? },
     })
+}
+
+fn falloff(fields: &Fields) -> Spanned<[f64; 3]> {
+    match fields.value("falloff") {
+        Some(Spanned { value: Value::Word("none"), span }) => Spanned::new([1.0, 0.0, 0.0], *span),
+        Some(slot) => {
+            Spanned::new(slot.triple().map_or(LightKind::PHYSICAL, |abc| abc.to_array()), slot.span)
+        }
+        None => Spanned::new(LightKind::PHYSICAL, fields.head),
+    }
 }

@@ -49,6 +49,15 @@ impl<'a> Resolver<'a> {
                 let brightness = self.glow_of(fields);
                 MaterialKind::Emissive { brightness, color: fields.color("color")?.value }
             }
+            "whitted" => MaterialKind::Whitted {
+                diffuse: fields.input("diffuse")?,
+                specular: fields.input("specular")?,
+                shininess: fields.number("shininess")?,
+                reflection: fields.input("reflection")?,
+                transmission: fields.input("transmission")?,
+                ior: fields.number("ior")?,
+                fresnel: fields.flag("fresnel")?,
+            },
             _ => MaterialKind::Mix {
                 a: material_of(fields, "a")?,
                 b: material_of(fields, "b")?,

@@ -1,10 +1,11 @@
 //! The `render` block.
 
-use crate::ir::{Method, Photons, Render};
+use crate::ir::{Classic, Method, Photons, PixelPoint, Render};
 use crate::resolve::error::Error;
 use crate::resolve::fields::Fields;
 use crate::resolve::{Env, Resolver, Value};
 use crate::schema;
+use crate::source::Spanned;
 use crate::syntax::ast::Object;
 
 impl<'a> Resolver<'a> {
@@ -16,14 +17,8 @@ impl<'a> Resolver<'a> {
             return self.report(Error::SecondBlock { kind: "render", second: object.kind.span, first });
         }
         self.render = Some(object.kind.span);
-        let method = fields.word("method").and_then(|word| {
-            let method = match word.value {
-                "pt" => Method::Pt,
-                "ppm" => Method::Ppm,
-                _ => return None,
-            };
-            Some(word.map(|_| method))
-        });
+        let method = method(&fields);
+        let classic = fields.nested("method").and_then(classic).unwrap_or_default();
         let stop = match fields.value("stop").map(|slot| &slot.value) {
             Some(Value::Stop(stop)) => *stop,
             _ => Default::default(),
@@ -31,8 +26,39 @@ impl<'a> Resolver<'a> {
         let depth = fields.given_count("depth");
         let seed = fields.given("seed").map(|seed| seed.map(|seed| seed as u64));
         let photons = fields.nested("photons").map(photons).unwrap_or_default();
-        self.scene.render = Render { method, stop, depth, seed, photons };
+        self.scene.render = Render { method, stop, depth, seed, photons, classic };
     }
+}
+
+/// The method asked for; `None` for `auto`.
+fn method(fields: &Fields) -> Option<Spanned<Method>> {
+    if fields.nested("method").is_some() {
+        return Some(Spanned::new(Method::Classic, fields.span("method")?));
+    }
+    let word = fields.word("method")?;
+    let method = match word.value {
+        "pt" => Method::Pt,
+        "ppm" => Method::Ppm,
+        "classic" => Method::Classic,
+        _ => return None,
+    };
+    Some(word.map(|_| method))
+}
+
+fn classic(fields: &Fields) -> Option<Classic> {
+    let word = |name| fields.word(name).map(|word| word.value);
+    Some(Classic {
+        blinn: word("shading")? == "blinn",
+        shadows: fields.flag("shadows")?,
+        ambient: fields.color("ambient")?.value,
+        lit_backs: word("backs")? == "lit",
+        pixel: match word("pixel")? {
+            "center" => PixelPoint::Center,
+            "corner" => PixelPoint::Corner,
+            _ => PixelPoint::Filter,
+        },
+        floor: word("quantise")? == "floor",
+    })
 }
 
 fn photons(fields: &Fields) -> Photons {

@@ -1,0 +1,164 @@
+//! Recursive ray tracing against its own formulas, worked out here a second time, in double precision.
+
+use snell::diag::{Problems, Report};
+use snell::math::DVec3;
+use snell::output::{Display, Exposure, Tone};
+use snell::render::{Settings, Stop};
+use snell::source::{Memory, SourceMap};
+
+/// The picture of a scene as bytes, without a tone curve; or what is wrong with the scene.
+fn render(text: &str) -> Result<Vec<[u8; 3]>, String> {
+    let (mut sources, mut problems) = (SourceMap::default(), Problems::default());
+    let main = sources.add("scene".into(), "scene".into(), text.into()).expect("the text is small");
+    let files = Memory::default();
+    let finished = (|| {
+        let scene = snell::compile(&mut sources, &files, main, &[], &mut problems)?;
+        let loaded = snell::load::load(&scene, &sources, &files, &mut problems)?;
+        let camera = scene.cameras.first()?;
+        let plan = snell::plan::plan(&loaded, Some(camera), None);
+        snell::plan::warn(&plan, &loaded, &mut problems);
+        let lowered = snell::lower::lower(&loaded, &plan, camera, &files, &mut problems)?;
+        let stop = Stop { passes: Some(1), ..Stop::default() };
+        let settings = Settings { method: lowered.method, max_depth: plan.depth, seed: 0, stop, crop: None };
+        let outcome = snell::render::render(&lowered.world, &settings, &());
+        let floor = scene.render.classic.floor;
+        let display = Display { exposure: Exposure::Ev(0.0), tone: Tone::Linear, floor };
+        Some(display.develop(&outcome.film.mean()))
+    })();
+    finished.ok_or_else(|| Report::new(problems, &sources).render_short())
+}
+
+const SIDE: usize = 120;
+
+/// A red ball, a ball with a highlight of exponent 0, and a floor, as the first task of many a course has it.
+const COURSE: &str = "snell 1
+camera { position: (0m, 0m, 10m), direction: (0, 0, -1), fov: 30deg, film: { size: 120 x 120, tone: linear } }
+light directional { direction: (-0.5, -0.5, -1), irradiance: 1, color: rgb(0.9, 0.8, 0.7) }
+light point { position: (2m, 3m, 4m), intensity: rgb(0.2, 0.3, 0.4), falloff: none }
+environment { radiance: rgb(0.2, 0, 0.6) }
+sphere { center: (-0.4m, 0.2m, 0m), radius: 1m, material: whitted { diffuse: rgb(0.79, 0.66, 0.44), specular: 0.5, shininess: 20 } }
+sphere { center: (1.2m, -0.6m, 1m), radius: 0.5m, material: whitted { diffuse: rgb(0, 0.4, 0.1), specular: rgb(0, 0, 0.3) } }
+plane { normal: (0, 1, 0.2), offset: -1.5m, material: whitted { diffuse: 0.5 } }
+render { method: classic { shadows: false, backs: dark, pixel: corner, quantise: floor } }
+";
+
+/// What a ray from the camera meets first in that scene: the distance, the normal, diffuse, specular, exponent.
+fn course_hit(o: DVec3, d: DVec3) -> Option<(f64, DVec3, DVec3, DVec3, f64)> {
+    let ball = |center: DVec3, radius: f64| {
+        let to = o - center;
+        let (b, c) = (to.dot(d), to.length_squared() - radius * radius);
+        let t = -b - (b * b - c).max(0.0).sqrt();
+        (b * b >= c && t > 0.0).then(|| (t, (o + d * t - center) / radius))
+    };
+    let normal = DVec3::new(0.0, 1.0, 0.2).normalize();
+    let t = (-1.5 - normal.dot(o)) / normal.dot(d);
+    let floor = (t > 0.0).then_some((t, normal));
+    let first = ball(DVec3::new(-0.4, 0.2, 0.0), 1.0)
+        .map(|(t, n)| (t, n, DVec3::new(0.79, 0.66, 0.44), DVec3::splat(0.5), 20.0));
+    let second = ball(DVec3::new(1.2, -0.6, 1.0), 0.5)
+        .map(|(t, n)| (t, n, DVec3::new(0.0, 0.4, 0.1), DVec3::new(0.0, 0.0, 0.3), 0.0));
+    let third = floor.map(|(t, n)| (t, n, DVec3::splat(0.5), DVec3::ZERO, 0.0));
+    [first, second, third].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// Phong's sum over the lights: the colour of a pixel, columns from the left, rows from the top.
+fn course_color(x: usize, y: usize) -> DVec3 {
+    let focal = SIDE as f64 / 2.0 / 15_f64.to_radians().tan();
+    let half = SIDE as f64 / 2.0;
+    let from_bottom = (SIDE - 1 - y) as f64;
+    let d = DVec3::new((x as f64 - half) / focal, (from_bottom - half) / focal, -1.0).normalize();
+    let o = DVec3::new(0.0, 0.0, 10.0);
+    let Some((t, n, diffuse, specular, exponent)) = course_hit(o, d) else {
+        return DVec3::new(0.2, 0.0, 0.6);
+    };
+    let p = o + d * t;
+    let sun = (-DVec3::new(-0.5, -0.5, -1.0).normalize(), DVec3::new(0.9, 0.8, 0.7));
+    let lamp = ((DVec3::new(2.0, 3.0, 4.0) - p).normalize(), DVec3::new(0.2, 0.3, 0.4));
+    let shade = |(l, color): (DVec3, DVec3)| {
+        let r = 2.0 * l.dot(n) * n - l;
+        color * (diffuse * l.dot(n).max(0.0) + specular * (-d).dot(r).max(0.0).powf(exponent))
+    };
+    shade(sun) + shade(lamp)
+}
+
+#[test]
+fn a_course_scene_is_its_closed_formula_pixel_for_pixel() {
+    let picture = render(COURSE).expect("the scene is right");
+    let mut undecided = 0;
+    for (i, &pixel) in picture.iter().enumerate() {
+        let color = course_color(i % SIDE, i / SIDE).clamp(DVec3::ZERO, DVec3::ONE) * 255.0;
+        for (channel, expected) in color.to_array().into_iter().enumerate() {
+            // In single precision the silhouette of a ball, seen at its steepest, is not known well enough to tell on
+            // which side of a whole number such a value lies.
+            if (expected - expected.round()).abs() < 2e-3 {
+                undecided += 1;
+                assert!(
+                    (f64::from(pixel[channel]) - expected).abs() < 1.03,
+                    "{pixel:?}, {channel}: {expected}"
+                );
+            } else {
+                let (x, y) = (i % SIDE, i / SIDE);
+                assert_eq!(
+                    pixel[channel],
+                    expected.floor() as u8,
+                    "({x}, {y}), channel {channel}: {expected}"
+                );
+            }
+        }
+    }
+    // Backgrounds and black channels are whole numbers; what is shaded hardly ever is.
+    assert!(undecided < picture.len() * 3 / 2, "{undecided} of {}", picture.len() * 3);
+}
+
+/// One pixel looking down at a slab of whatever `material` is, over a white floor, with one light above.
+fn pixel_through(material: &str, settings: &str) -> [u8; 3] {
+    let scene = format!(
+        "snell 1
+camera {{ position: (0m, 5m, 0m), direction: (0, -1, 0), up: (0, 0, -1), fov: 1deg, film: {{ size: 1 x 1 }} }}
+light directional {{ direction: (0, -1, 0), irradiance: 0.5 }}
+box {{ min: (-9m, 1m, -9m), max: (9m, 2m, 9m), material: {material} }}
+plane {{ y: 0m, material: whitted {{ diffuse: 1 }} }}
+environment {{ radiance: rgb(0, 0, 1) }}
+render {{ method: classic {{ pixel: center, {settings} }} }}
+"
+    );
+    render(&scene).expect("the scene is right")[0]
+}
+
+#[test]
+fn each_term_adds_what_it_says() {
+    // The environment is seen, and lights nothing.
+    assert_eq!(pixel_through("whitted { diffuse: 1 }", ""), [128, 128, 128]);
+    assert_eq!(pixel_through("whitted { diffuse: 1 }", "ambient: 0.25"), [191, 191, 191]);
+    assert_eq!(pixel_through("whitted { diffuse: 0, specular: 0.4, shininess: 30 }", ""), [51, 51, 51]);
+    assert_eq!(pixel_through("whitted { diffuse: 0, reflection: 0.5 }", ""), [0, 0, 128]);
+    // Through both faces of the slab: 0.5² of a floor that is in its shadow, or is not.
+    let clear = "whitted { diffuse: 0, transmission: 0.5, ior: 1.5 }";
+    assert_eq!(pixel_through(clear, ""), [0, 0, 0]);
+    assert_eq!(pixel_through(clear, "shadows: false"), [32, 32, 32]);
+}
+
+#[test]
+fn fresnel_shares_light_between_the_two_rays() {
+    // Straight on, ((1.5 − 1) / (1.5 + 1))² = 0.04 comes back from a face, and the sky is blue; of the inner tree
+    // 0.96 · 0.04 · 0.96 and smaller terms follow. What goes through meets the lit floor: 0.96² · (1 + 0.04² + …) · 0.5.
+    let slab = "whitted { diffuse: 0, reflection: 1, transmission: 1, ior: 1.5, fresnel: true }";
+    let [red, green, blue] = pixel_through(slab, "shadows: false");
+    let through = 0.96 * 0.96 / (1.0 - 0.04 * 0.04) * 0.5;
+    let back = 0.04 + 0.96 * 0.96 * 0.04 / (1.0 - 0.04 * 0.04);
+    assert_eq!((red, green), (red, red));
+    assert!((f64::from(red) - 255.0 * through).abs() < 1.0, "{red}");
+    assert!((f64::from(blue) - 255.0 * (through + back)).abs() < 1.5, "{blue}");
+    assert_eq!(
+        pixel_through("glass { ior: 1.5 }", "shadows: false"),
+        [red, green, blue],
+        "glass is the same"
+    );
+}
+
+#[test]
+fn what_only_this_method_knows_is_refused_by_the_others() {
+    let scene = COURSE.replace("method: classic", "method: pt }\nfn _unused(n: int) -> int { n }\n// ");
+    let report = render(&scene).expect_err("the scene is wrong");
+    assert_eq!(report.matches("[snell::plan::classic_only]").count(), 4, "{report}");
+}
