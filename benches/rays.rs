@@ -1,68 +1,138 @@
-//! How fast rays are: trees over a displaced sphere, camera rays and shuffled diffuse bounces, on one thread.
+//! How fast rays are: millions a second on one thread, over two families of meshes.
 //!
-//! `cargo bench --bench rays`; an argument that is a number adds a mesh of about so many triangles.
+//! `cargo bench --bench rays [-- MESH..]`, with meshes such as `blob10k`, `blob1m` or `soup100k`.
+//!
+//! `blob` is a sphere displaced by a sum of sines, `soup` unordered triangles. Rays are, in this order: through the
+//! pixels of a picture of 1024 × 1024; cosine-distributed bounces from where those meet the mesh, in their order; the
+//! same as shadow rays; and rays from anywhere to anywhere in the box around the mesh, whose order says nothing.
 
-use snell::math::{DAffine3, Frame, Ray, Vec2, Vec3, warp};
+use snell::math::{DAffine3, Ray, Vec3};
 use snell::render::geometry::Geometry;
 use snell::render::shape::{MaterialId, Mesh, SourceId};
+use std::f64::consts::{FRAC_PI_4, TAU};
 use std::time::Instant;
 
-const RAYS: usize = 1 << 20;
+/// Meshes that are traced unless others are named.
+const MESHES: [&str; 4] = ["blob10k", "blob100k", "blob1m", "soup1m"];
 
 fn main() {
-    let extra = std::env::args().filter_map(|argument| argument.parse().ok());
-    println!("triangles   build s   camera Mrays/s   bounce   shadow");
-    for triangles in [100_000, 1_000_000].into_iter().chain(extra) {
-        let mesh = displaced_sphere(triangles);
-        let count = mesh.triangles.len();
-        let start = Instant::now();
-        let geometry = Geometry::build(vec![mesh], Vec::new());
-        let build = start.elapsed().as_secs_f64();
-        let camera = camera_rays();
-        let bounces = bounce_rays(&geometry, &camera);
-        let closest = |ray: &Ray| geometry.closest_hit(ray).is_some();
-        let segments: Vec<_> = bounces.iter().map(|ray| Ray { t_max: 1.0, ..*ray }).collect();
-        println!(
-            "{count:9} {build:9.2} {:16.2} {:8.2} {:8.2}",
-            speed(&camera, closest),
-            speed(&bounces, closest),
-            speed(&segments, |ray| geometry.any_hit(ray))
-        );
+    let named: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
+    let meshes: Vec<&str> =
+        if named.is_empty() { MESHES.to_vec() } else { named.iter().map(String::as_str).collect() };
+    println!("mesh       triangles   build s  bytes/tri   camera   bounce   shadow  any to any   (Mrays/s)");
+    for name in meshes {
+        match mesh(name) {
+            Some(mesh) => measure(name, mesh),
+            None => eprintln!("`{name}` is no mesh of this benchmark"),
+        }
     }
 }
 
-/// Millions of rays a second, the best of three runs.
+fn measure(name: &str, mesh: Mesh) {
+    let triangles = mesh.triangles.len();
+    let (min, max) = mesh
+        .positions
+        .iter()
+        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), p| (min.min(*p), max.max(*p)));
+    let start = Instant::now();
+    let geometry = Geometry::build(vec![mesh], Vec::new());
+    let build = start.elapsed().as_secs_f64();
+
+    let camera = camera_rays(min, max);
+    let bounces = bounce_rays(&geometry, &camera, (max - min).length());
+    let anywhere = any_rays(min, max);
+    let closest = |ray: &Ray| geometry.closest_hit(ray).is_some();
+    println!(
+        "{name:9} {triangles:10} {build:9.2} {:10.0} {:8.2} {:8.2} {:8.2} {:11.2}",
+        geometry.tree_bytes() as f64 / triangles as f64,
+        speed(&camera, closest),
+        speed(&bounces, closest),
+        speed(&bounces, |ray| geometry.any_hit(ray)),
+        speed(&anywhere, closest),
+    );
+}
+
+/// Millions of rays a second, the best of four runs.
 fn speed(rays: &[Ray], trace: impl Fn(&Ray) -> bool) -> f64 {
     let run = |_| {
         let start = Instant::now();
-        let hits = rays.iter().filter(|ray| trace(ray)).count();
-        std::hint::black_box(hits);
+        std::hint::black_box(rays.iter().filter(|ray| trace(ray)).count());
         rays.len() as f64 / start.elapsed().as_secs_f64() * 1e-6
     };
-    (0..3).map(run).fold(0.0, f64::max)
+    (0..4).map(run).fold(0.0, f64::max)
 }
 
-/// A sphere of radius about 1, its surface wavy at several scales, of about `triangles` triangles.
-fn displaced_sphere(triangles: usize) -> Mesh {
-    let rows = ((triangles / 4) as f32).sqrt() as u32;
-    let columns = rows * 2;
-    let mut positions = Vec::new();
-    for row in 0..=rows {
-        for column in 0..=columns {
-            let theta = std::f32::consts::PI * row as f32 / rows as f32;
-            let phi = std::f32::consts::TAU * (column % columns) as f32 / columns as f32;
-            let wave = |f: f32| (f * theta).sin() * (f * phi).sin();
-            let r = 1.0 + 0.1 * wave(8.0) + 0.02 * wave(47.0) + 0.004 * wave(211.0);
-            positions.push(r * Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin()));
+/// `blob100k`: a family, and about how many triangles.
+fn mesh(name: &str) -> Option<Mesh> {
+    let digits = name.find(|c: char| c.is_ascii_digit())?;
+    let (family, count) = name.split_at(digits);
+    let scale = if count.ends_with('m') { 1_000_000 } else { 1_000 };
+    let count: usize = count.trim_end_matches(['k', 'm']).parse::<usize>().ok()? * scale;
+    match family {
+        "blob" => Some(blob((count as f64 / 12.0).sqrt().round() as u32)),
+        "soup" => Some(soup(count)),
+        _ => None,
+    }
+}
+
+/// A cube of 6 · `n`² squares, blown up to a sphere whose radius varies between about 0.8 and 1.2.
+fn blob(n: u32) -> Mesh {
+    let t: Vec<f64> =
+        (0..=n).map(|i| (FRAC_PI_4 * (2.0 * f64::from(i) / f64::from(n) - 1.0)).tan()).collect();
+    let faces: [fn(f64, f64) -> [f64; 3]; 6] = [
+        |a, b| [1.0, a, b],
+        |a, b| [-1.0, b, a],
+        |a, b| [b, 1.0, a],
+        |a, b| [a, -1.0, b],
+        |a, b| [a, b, 1.0],
+        |a, b| [b, a, -1.0],
+    ];
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for face in faces {
+        let base = positions.len() as u32;
+        positions.extend(t.iter().flat_map(|&a| t.iter().map(move |&b| displaced(face(a, b)))));
+        for q in (0..n).flat_map(|i| (0..n).map(move |j| base + i * (n + 1) + j)) {
+            triangles.push([q, q + n + 1, q + n + 2]);
+            triangles.push([q, q + n + 2, q + 1]);
         }
     }
-    let quads = (0..rows).flat_map(|row| (0..columns).map(move |column| row * (columns + 1) + column));
-    let triangles = quads.flat_map(|a| {
-        let b = a + columns + 1;
-        [[a, a + 1, b], [a + 1, b + 1, b]]
-    });
+    of_triangles(positions, triangles)
+}
+
+/// A point of the cube on the sphere, displaced by waves of five lengths.
+fn displaced(p: [f64; 3]) -> Vec3 {
+    let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let [x, y, z] = p.map(|x| x / length);
+    let s = f64::sin;
+    let waves = 0.50 * s(5.0 * x + 1.0) * s(6.0 * y + 0.5) * s(4.0 * z + 2.0)
+        + 0.25 * s(13.0 * x + 3.0 * z) * s(11.0 * y + 1.7)
+        + 0.15 * s(29.0 * x + 7.0 * y + 0.3) * s(31.0 * z - 5.0 * y)
+        + 0.06 * s(71.0 * x + 13.0 * z) * s(67.0 * y + 2.2) * s(73.0 * z)
+        + 0.02 * s(211.0 * x) * s(199.0 * y) * s(223.0 * z);
+    let r = 1.0 + 0.18 * waves;
+    Vec3::new((x * r) as f32, (y * r) as f32, (z * r) as f32)
+}
+
+/// `count` triangles anywhere in the unit cube, of mean edge about `count`^(−1/3).
+fn soup(count: usize) -> Mesh {
+    let mut random = Random(7);
+    let size = 1.5 * (count as f64).powf(-1.0 / 3.0);
+    let mut positions = Vec::with_capacity(3 * count);
+    for _ in 0..count {
+        let corners = [(); 3].map(|()| [random.next(), random.next(), random.next()]);
+        let center = corners[0];
+        positions.extend(corners.map(|corner| {
+            let at = |axis: usize| (center[axis] + (corner[axis] - 0.5) * size) as f32;
+            Vec3::new(at(0), at(1), at(2))
+        }));
+    }
+    let triangles = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    of_triangles(positions, triangles)
+}
+
+fn of_triangles(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
     Mesh {
-        triangles: triangles.collect(),
+        triangles,
         positions,
         normals: None,
         uvs: None,
@@ -72,36 +142,56 @@ fn displaced_sphere(triangles: usize) -> Mesh {
     }
 }
 
-/// Rays through the pixels of a square picture that the sphere fills.
-fn camera_rays() -> Vec<Ray> {
-    let side = 1 << (RAYS.ilog2() / 2);
-    let pixel = |i: u32| (i as f32 + 0.5) / side as f32 - 0.5;
-    let rays = (0..side).flat_map(|y| (0..side).map(move |x| (x, y)));
-    rays.map(|(x, y)| Ray::new(Vec3::new(0.0, 0.0, 3.0), Vec3::new(pixel(x), pixel(y), -1.2))).collect()
+const SIDE: u32 = 1024;
+
+/// Rays through the pixels of a square picture with 40° of view, row by row, that the mesh fills.
+fn camera_rays(min: Vec3, max: Vec3) -> Vec<Ray> {
+    let eye = (min + max) / 2.0 + Vec3::Z * (0.95 * (max - min).length());
+    let half = 20_f32.to_radians().tan();
+    let at = |i: u32| ((i as f32 + 0.5) / SIDE as f32 * 2.0 - 1.0) * half;
+    let pixels = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y)));
+    pixels.map(|(x, y)| Ray::new(eye, Vec3::new(at(x), -at(y), -1.0).normalize())).collect()
 }
 
-/// Diffuse bounces, inwards so that each hits, in an order that has nothing to do with space.
-fn bounce_rays(geometry: &Geometry, camera: &[Ray]) -> Vec<Ray> {
-    let mut bounces = Vec::new();
-    for (i, ray) in (0_u32..).zip(camera) {
-        let Some(hit) = geometry.closest_hit(ray) else { continue };
-        let point = geometry.surface_point(ray, &hit);
-        let u = Vec2::new(hash(2 * i), hash(2 * i + 1));
-        let dir = Frame::from_normal(-point.n).to_world(warp::square_to_cosine_hemisphere(u));
-        bounces.push(point.spawn(dir));
-    }
-    for i in (1..bounces.len()).rev() {
-        bounces.swap(i, (hash(i as u32 ^ 0x9e37_79b9) * i as f32) as usize);
-    }
-    bounces
+/// A cosine-distributed ray from each hit, on the side it was hit from, off the surface by 10⁻⁴ of the box.
+fn bounce_rays(geometry: &Geometry, camera: &[Ray], diagonal: f32) -> Vec<Ray> {
+    let mut random = Random(2);
+    let mut bounce = |ray: &Ray| {
+        let hit = geometry.closest_hit(ray)?;
+        let n = geometry.surface_point(ray, &hit).n;
+        let n = if n.dot(ray.d) > 0.0 { -n } else { n };
+        let dir = (n + random.direction()).try_normalize()?;
+        Some(Ray::new(ray.at(hit.t) + n * (1e-4 * diagonal), dir))
+    };
+    camera.iter().filter_map(&mut bounce).collect()
 }
 
-/// A number in [0, 1) that looks random (Wellons 2018, `lowbias32`).
-fn hash(mut x: u32) -> f32 {
-    x ^= x >> 16;
-    x = x.wrapping_mul(0x7feb_352d);
-    x ^= x >> 15;
-    x = x.wrapping_mul(0x846c_a68b);
-    x ^= x >> 16;
-    (x >> 8) as f32 / (1 << 24) as f32
+/// Rays from points of the box in all directions.
+fn any_rays(min: Vec3, max: Vec3) -> Vec<Ray> {
+    let mut random = Random(1);
+    let mut point = |random: &mut Random| {
+        let u = [random.next(), random.next(), random.next()].map(|u| u as f32);
+        min + (max - min) * Vec3::from_array(u)
+    };
+    (0..SIDE * SIDE).map(|_| Ray::new(point(&mut random), random.direction())).collect()
+}
+
+/// Numbers in [0, 1) that look random (Steele, Lea, Flood 2014: SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut x = self.0;
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A unit vector, all directions alike.
+    fn direction(&mut self) -> Vec3 {
+        let (z, phi) = (1.0 - 2.0 * self.next(), TAU * self.next());
+        let r = (1.0 - z * z).max(0.0).sqrt();
+        Vec3::new((r * phi.cos()) as f32, (r * phi.sin()) as f32, z as f32)
+    }
 }

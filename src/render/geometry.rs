@@ -95,6 +95,11 @@ impl Geometry {
         self.tree.bounds()
     }
 
+    /// What the tree takes in memory, in bytes.
+    pub fn tree_bytes(&self) -> usize {
+        self.tree.bytes()
+    }
+
     /// The number of primitives: triangles first, mesh by mesh, then solids.
     pub fn prim_count(&self) -> u32 {
         self.first_solid() + self.solids.len() as u32

@@ -65,6 +65,11 @@ impl Wide {
         self.bounds
     }
 
+    /// What it takes in memory, in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.blocks[..]) + size_of_val(&self.solids[..])
+    }
+
     /// Appends a node for a cell and all below it; returns how many nodes the longest way down passes.
     fn node(&mut self, plan: &Plan, triangles: &[[Vec3; 3]], solids: &[u32]) -> usize {
         let index = self.nodes.len();
