@@ -4,7 +4,7 @@
     python3 benches/mistakes/compare.py
 
 A folder per renderer holds one good scene and `planted.toml`, the mistakes as changes of text. Every mistake is rendered
-alone, then all at once. How a report is judged is said once, in `judge`, and once in words, in `METHOD`. A renderer that is
+alone, then all at once; `--scenes DIR` writes these scenes for you to read. How a report is judged is said once, in `judge`, and once in words, in `METHOD`. A renderer that is
 not installed is left out: `povray` and `snell` are looked for as commands, `mitsuba` and `pyluxcore` beside this Python.
 
 Python 3.11 or later, its standard library only.
@@ -117,9 +117,7 @@ def run(renderer, mistakes):
     """Renders the good scene with these mistakes planted."""
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch) / renderer.folder
-        shutil.copytree(HERE / renderer.folder, folder)
-        for mistake in mistakes:
-            plant(folder / mistake["file"], mistake)
+        write_scene(renderer, mistakes, folder)
         texts = {path.name: path.read_text() for path in folder.iterdir() if path.suffix != ".png"}
         try:
             done = subprocess.run(
@@ -131,6 +129,20 @@ def run(renderer, mistakes):
             code, output = f"none within {SECONDS} s", (late.stdout or b"").decode(errors="replace")
     output = re.sub(r"\x1b\[[\d;]*m", "", output).replace(f"{folder}/", "")
     return Run(texts, code, [line.rstrip() for line in output.replace("\r", "\n").splitlines()])
+
+
+def write_scene(renderer, mistakes, folder):
+    """Copies the good scene and plants the mistakes in the copy."""
+    shutil.copytree(HERE / renderer.folder, folder)
+    for mistake in mistakes:
+        plant(folder / mistake["file"], mistake)
+
+
+def write_scenes(renderer, folder):
+    """Writes the scene of every mistake alone, and of all at once."""
+    sets = {mistake["kind"]: [mistake] for mistake in renderer.planted} | {"all": renderer.planted}
+    for name, mistakes in sets.items():
+        write_scene(renderer, mistakes, folder / renderer.folder / name)
 
 
 def plant(path, mistake):
@@ -447,11 +459,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--snell", default=str(ROOT / "target" / "release" / "snell"), help="the program to measure")
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "docs" / "mistakes.md", help="where the page goes")
+    parser.add_argument("--scenes", type=Path, help="a new folder to write the broken scenes to")
     given = parser.parse_args()
     snell = shutil.which(given.snell)
     if not snell:
         sys.exit(f"there is no `{given.snell}`: build it with `cargo build --release`, or name it with --snell")
-    results = [measure(renderer) for renderer in installed(str(Path(snell).resolve()))]
+    renderers = installed(str(Path(snell).resolve()))
+    for renderer in renderers if given.scenes else []:
+        write_scenes(renderer, given.scenes)
+    results = [measure(renderer) for renderer in renderers]
     given.output.write_text(page(results))
     print(f"{given.output} is written")
 
