@@ -12,8 +12,8 @@ global_settings {
 
 camera {
   location <0, 1.2, -4>
-  right x
   angle 40
+  right x
   look_at <0, 0.4, 0>
 }
 
