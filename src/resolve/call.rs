@@ -21,8 +21,11 @@ impl<'a> Resolver<'a> {
         }
         match self.eval(callee, env) {
             Value::Builtin(builtin) => {
-                let values = self.positional(builtin.name, builtin.usage, args, env);
-                values.map_or(Value::Poison, |values| self.call_builtin(builtin, values, used))
+                let mut given = |arg: &'a Arg| {
+                    (arg.name.as_ref(), Spanned::new(self.eval(&arg.value, env), arg.value.span))
+                };
+                let given: Vec<_> = args.iter().map(&mut given).collect();
+                self.call_builtin(builtin, given, used)
             }
             Value::Function(function) => self.call_function(&function, args, used, env),
             Value::Poison => {
@@ -36,21 +39,6 @@ impl<'a> Resolver<'a> {
                 self.wrong_type("a function", &other.noun(), callee.span, "only functions can be called")
             }
         }
-    }
-
-    fn positional(
-        &mut self,
-        function: &str,
-        usage: &str,
-        args: &'a [Arg],
-        env: &Env<'a>,
-    ) -> Option<Vec<Spanned<Value<'a>>>> {
-        if let Some(name) = args.iter().find_map(|arg| arg.name.as_ref()) {
-            let (function, help) = (function.to_owned(), format!("write `{usage}`"));
-            self.report(Error::UnknownArgument { function, name: name.value.clone(), used: name.span, help });
-            return None;
-        }
-        Some(args.iter().map(|arg| Spanned::new(self.eval(&arg.value, env), arg.value.span)).collect())
     }
 
     fn call_function(
@@ -206,7 +194,7 @@ impl<'a> Resolver<'a> {
     pub(super) fn type_named(&mut self, name: &Name) -> Option<Type> {
         let ty = Type::named(name);
         if ty.is_none() {
-            let names = || Type::NAMED.iter().map(|(name, _)| *name);
+            let names = || Type::NAMED.iter().map(|known| known.name);
             let help = did_you_mean(name, names())
                 .unwrap_or_else(|| format!("the types are {}", names().collect::<Vec<_>>().join(", ")));
             self.report(Error::UnknownType { name: name.value.clone(), used: name.span, help });

@@ -1,7 +1,7 @@
 //! Expressions: each gives a value.
 
 use super::builtin;
-use super::dimension::{Dimension, Quantity, UNITS, with_unit};
+use super::dimension::{Dimension, Quantity, with_unit};
 use super::error::Error;
 use super::scope::{Definition, Kind, Scope};
 use super::{Env, Resolver, Step, Value, color};
@@ -59,7 +59,7 @@ impl<'a> Resolver<'a> {
         if let Some(quantity) = with_unit(value, unit) {
             return Value::Number(quantity);
         }
-        let known = || UNITS.iter().map(|(name, ..)| *name);
+        let known = || schema::UNITS.iter().map(|unit| unit.name);
         let help = spelled_out(unit)
             .map(|short| format!("did you mean `{short}`?"))
             .or_else(|| did_you_mean(unit, known()))
@@ -392,7 +392,7 @@ fn named(value: &Value) -> Option<u32> {
 /// The names that may have been meant where a value is wanted, the scene's own first.
 fn known_names<'n>(visible: &[Rc<Definition<'n>>]) -> Vec<&'n str> {
     let mut known: Vec<&str> = visible.iter().map(|definition| definition.name).collect();
-    for name in builtin::names().chain(color::NAMED.iter().map(|(name, _)| *name)) {
+    for name in builtin::names().chain(schema::COLORS.iter().map(|(name, _)| *name)) {
         known.push(name);
     }
     known

@@ -57,6 +57,7 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "How the picture is computed; all of it may be left to the compiler.",
         example: "render { method: auto, stop: error(1%) or time(5min) }",
         own: RENDER,
+        choices: &[],
     },
     Block {
         kind: "classic",
@@ -64,6 +65,7 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "Recursive ray tracing, as courses teach it: no light between matt surfaces, no law of energy.",
         example: "method: classic { shading: blinn, ambient: 0.1 }",
         own: CLASSIC,
+        choices: &[],
     },
     Block {
         kind: "photons",
@@ -71,5 +73,6 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "Settings of photon mapping.",
         example: "photons: { count: 200000, k: 60, radius: 5cm }",
         own: PHOTONS,
+        choices: &[],
     },
 ];

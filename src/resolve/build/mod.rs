@@ -8,7 +8,6 @@ mod shape;
 mod texture;
 
 use super::error::Error;
-use super::fields::Fields;
 use super::{Env, Resolver, Value};
 use crate::diag::did_you_mean;
 use crate::schema::{self, Area};
@@ -107,16 +106,6 @@ impl<'a> Resolver<'a> {
             Error::UnknownBlock { kind: kind.to_owned(), used, help }
         };
         self.poison(error)
-    }
-
-    /// The first of two fields that excludes the other; both is a mistake, reported here.
-    fn either(&mut self, fields: &Fields<'a>, names: &[&'static str]) -> Option<&'static str> {
-        let mut given = names.iter().copied().filter(|name| fields.has(name));
-        let first = given.next()?;
-        if let Some(second) = given.next() {
-            self.conflict(fields, first, second);
-        }
-        Some(first)
     }
 }
 
