@@ -21,6 +21,7 @@ mod noise;
 mod operator;
 mod param;
 mod scope;
+mod survey;
 #[cfg(test)]
 mod tests;
 mod value;
@@ -36,6 +37,7 @@ use miette::Diagnostic;
 use rustc_hash::FxHashSet;
 use scope::{Definition, Kind, Scope, State};
 use std::rc::Rc;
+pub use survey::{Offer, Offered, survey};
 use value::Value;
 
 /// A value that the command line gives to a parameter: `--set f_stop=8`.

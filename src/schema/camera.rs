@@ -17,7 +17,7 @@ const CAMERA: &[Field] = &[
         .like("45deg"),
     field("fov_x", Type::Angle, "From its left to its right, instead of `fov`.").within(VIEW).like("60deg"),
     field("lens", Type::Lens, "How light gets in.").or_word("pinhole"),
-    field("film", Type::Block("film"), "What it falls on."),
+    field("film", Type::Block("film"), "What it falls on.").like("{ size: 1024 x 768, tone: agx }"),
 ];
 
 const PINHOLE: &[Field] =

@@ -18,7 +18,8 @@ const RENDER: &[Field] = &[
         .or(0.0)
         .within(Range::closed(0.0, 9.0e15))
         .like("7"),
-    field("photons", Type::Block("photons"), "For photon mapping; without it, chosen by the compiler."),
+    field("photons", Type::Block("photons"), "For photon mapping; without it, chosen by the compiler.")
+        .like("{ count: 200000, k: 60, radius: 5cm }"),
 ];
 
 const PHOTONS: &[Field] = &[
