@@ -6,7 +6,7 @@ use super::{Exit, fail, print};
 use crate::diag::did_you_mean;
 use crate::reference;
 use clap::Args;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `snell doc`.
 #[derive(Args, Debug)]
@@ -17,8 +17,12 @@ pub struct DocArgs {
     /// Print the whole reference as Markdown
     #[arg(long, conflicts_with = "words")]
     markdown: bool,
-    #[command(flatten)]
-    scene_args: SceneArgs,
+    /// Look for the scene's files here too; may be repeated
+    #[arg(long = "asset-dir", value_name = "DIR")]
+    asset_dirs: Vec<PathBuf>,
+    /// Let the scene name files outside its folder
+    #[arg(long)]
+    allow_outside: bool,
     #[command(flatten)]
     messages: MessageArgs,
 }
@@ -46,7 +50,9 @@ fn print_entries(word: &str, width: usize) {
 
 /// Lists what a scene defines.
 fn scene(path: &str, args: &DocArgs, width: usize) -> Exit {
-    let mut session = match Session::open(Path::new(path), &args.scene_args) {
+    let (asset_dirs, allow_outside) = (args.asset_dirs.clone(), args.allow_outside);
+    let scene_args = SceneArgs { sets: Vec::new(), asset_dirs, allow_outside, deny: None };
+    let mut session = match Session::open(Path::new(path), &scene_args) {
         Ok(session) => session,
         Err(reason) => return fail(reason),
     };

@@ -7,7 +7,7 @@ use super::{Env, Resolver, Step, Value};
 use crate::diag::did_you_mean;
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
-use crate::syntax::ast::{Arg, Expr, ExprKind, Formal, Name};
+use crate::syntax::ast::{self, Arg, Expr, ExprKind, Formal, Name};
 use std::rc::Rc;
 
 impl<'a> Resolver<'a> {
@@ -117,12 +117,7 @@ impl<'a> Resolver<'a> {
             Some(wanted) => {
                 let index = formals.iter().position(|formal| formal.name.value == wanted.value);
                 if index.is_none() {
-                    let names = || formals.iter().map(|formal| formal.name.as_str());
-                    let help = did_you_mean(wanted, names()).unwrap_or_else(|| {
-                        format!("its parameters are {}", names().collect::<Vec<_>>().join(", "))
-                    });
-                    let (used, wanted) = (wanted.span, wanted.value.clone());
-                    self.report(Error::UnknownArgument { function: name, name: wanted, used, help });
+                    self.report(unknown_argument(function.definition, wanted));
                 }
                 index
             }
@@ -145,6 +140,7 @@ impl<'a> Resolver<'a> {
 
     /// A default is worked out where the function stands.
     fn default_of(&mut self, function: &Function<'a>, default: &'a Expr, ty: Option<Type>) -> Value<'a> {
+        self.enter(default.span);
         let unit = std::mem::replace(&mut self.unit, function.unit);
         let value = self.typed(default, ty, &function.scope);
         self.unit = unit;
@@ -203,6 +199,15 @@ impl<'a> Resolver<'a> {
     }
 }
 
+/// The report of an argument by a name that the function does not have.
+pub fn unknown_argument(function: &ast::Function, wanted: &Name) -> Error {
+    let names = || function.formals.iter().map(|formal| formal.name.as_str());
+    let help = did_you_mean(wanted, names())
+        .unwrap_or_else(|| format!("its parameters are {}", names().collect::<Vec<_>>().join(", ")));
+    let (function, name) = (function.name.value.clone(), wanted.value.clone());
+    Error::UnknownArgument { function, name, used: wanted.span, help }
+}
+
 /// "1 argument", "2 to 3 arguments".
 pub fn count_text(least: usize, most: usize) -> String {
     match (least, most) {
@@ -223,9 +228,9 @@ fn usage(function: &Function) -> String {
 }
 
 /// Where the value of a body stands.
-fn value_span(body: &crate::syntax::ast::Block, otherwise: Span) -> Span {
+fn value_span(body: &ast::Block, otherwise: Span) -> Span {
     match body.entries.last() {
-        Some(crate::syntax::ast::Entry::Item(item)) => item.span,
+        Some(ast::Entry::Item(item)) => item.span,
         _ => otherwise,
     }
 }

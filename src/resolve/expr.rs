@@ -59,12 +59,7 @@ impl<'a> Resolver<'a> {
         if let Some(quantity) = with_unit(value, unit) {
             return Value::Number(quantity);
         }
-        let known = || schema::UNITS.iter().map(|unit| unit.name);
-        let help = spelled_out(unit)
-            .map(|short| format!("did you mean `{short}`?"))
-            .or_else(|| did_you_mean(unit, known()))
-            .unwrap_or_else(|| format!("the units are {}", known().collect::<Vec<_>>().join(" ")));
-        self.poison(Error::UnknownUnit { unit: unit.value.clone(), used: unit.span, help })
+        self.poison(unknown_unit(unit))
     }
 
     fn size(&mut self, width: &'a Expr, height: &'a Expr, env: &Env<'a>) -> Value<'a> {
@@ -238,9 +233,11 @@ impl<'a> Resolver<'a> {
         let mut list = Vec::new();
         let complete = self.repeat(name, range, env, |this, turn| {
             let keep = filter.is_none_or(|filter| {
+                this.enter(filter.span);
                 !matches!(this.eval_as(filter, schema::Type::Bool, turn), Value::Bool(false))
             });
             if keep {
+                this.enter(value.span);
                 list.push(this.eval(value, turn));
             }
             this.spend_elements(1, value.span)
@@ -356,6 +353,16 @@ impl<'a> Resolver<'a> {
             }
         }
     }
+}
+
+/// The report of a unit that there is not.
+pub fn unknown_unit(unit: &Name) -> Error {
+    let known = || schema::UNITS.iter().map(|unit| unit.name);
+    let help = spelled_out(unit)
+        .map(|short| format!("did you mean `{short}`?"))
+        .or_else(|| did_you_mean(unit, known()))
+        .unwrap_or_else(|| format!("the units are {}", known().collect::<Vec<_>>().join(" ")));
+    Error::UnknownUnit { unit: unit.value.clone(), used: unit.span, help }
 }
 
 /// The unit that a word spells out.

@@ -164,7 +164,7 @@ impl<'a> Resolver<'a> {
 }
 
 /// Near names, then what other programs call it, then all there is.
-fn unknown_field_help(block: &schema::Block, name: &Name) -> String {
+pub fn unknown_field_help(block: &schema::Block, name: &Name) -> String {
     // What one block calls its centre is the position of another.
     let ours = match schema::foreign_field(name).unwrap_or(name) {
         "center" | "position" => ["center", "position"].into_iter().find(|ours| block.field(ours).is_some()),

@@ -93,6 +93,7 @@ impl<'a> Resolver<'a> {
 
     /// The items of a block, in a scope of their own.
     fn block_items(&mut self, block: &'a Block, env: &Env<'a>, sink: &mut Sink) {
+        self.enter(block.span);
         let scope = self.scope_of(block, env);
         for entry in &block.entries {
             match entry {
@@ -247,6 +248,7 @@ impl<'a> Resolver<'a> {
 
     /// The value of a body: its definitions hold in it, and one value or object stands in it.
     pub(super) fn body(&mut self, block: &'a Block, env: &Env<'a>) -> Value<'a> {
+        self.enter(block.span);
         if block.poisoned {
             return Value::Poison;
         }

@@ -33,6 +33,9 @@ impl<'a> Resolver<'a> {
             (BinaryOp::And, Value::Bool(false)) => Value::Bool(false),
             (BinaryOp::Or, Value::Bool(true)) => Value::Bool(true),
             _ => {
+                if matches!(op, BinaryOp::And | BinaryOp::Or) {
+                    self.enter(right.span);
+                }
                 let right = Spanned::new(self.eval(right, env), right.span);
                 self.join(op, left, right)
             }
