@@ -78,7 +78,8 @@ fn functions(out: &mut String) {
             writeln!(out, "\n### Of {}\n\n| call | gives | | example |\n|---|---|---|---|", topic.title());
         for function in schema::functions().filter(|function| function.topic == topic) {
             let method = function.method.map(|method| format!(" Computed as {method}.")).unwrap_or_default();
-            let doc = format!("{}{method}", function.doc);
+            let domain = function.domain.map(|domain| format!(" It is for {domain}.")).unwrap_or_default();
+            let doc = format!("{}{domain}{method}", function.doc);
             row(out, &[&code(&signature(function)), function.result, &doc, &code(function.example)]);
         }
     }

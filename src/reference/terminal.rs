@@ -108,6 +108,9 @@ fn function_text(function: &Function, width: usize) -> String {
     for arg in function.forms.iter().copied().flatten() {
         let _ = writeln!(out, "  {:<12} {}", arg.name, arg.takes.noun());
     }
+    if let Some(domain) = function.domain {
+        wrapped(&mut out, &format!("It is for {domain}."), 2, width);
+    }
     if let Some(method) = function.method {
         out.push('\n');
         wrapped(&mut out, &format!("How it is computed: {method}."), 2, width);

@@ -43,7 +43,7 @@ enum Rule {
 const RULES: &[(&str, Rule)] = &[
     ("sin", Rule::OfAngle(libm::sin)),
     ("cos", Rule::OfAngle(libm::cos)),
-    ("tan", Rule::OfAngle(libm::tan)),
+    ("tan", Rule::OfAngle(tan)),
     ("asin", Rule::ToAngle(libm::asin)),
     ("acos", Rule::ToAngle(libm::acos)),
     ("atan", Rule::ToAngle(libm::atan)),
@@ -59,7 +59,7 @@ const RULES: &[(&str, Rule)] = &[
     ("abs", Rule::Same(|x| x[0].abs())),
     ("min", Rule::Same(|x| x.iter().copied().fold(f64::INFINITY, f64::min))),
     ("max", Rule::Same(|x| x.iter().copied().fold(f64::NEG_INFINITY, f64::max))),
-    ("clamp", Rule::Same(|x| x[0].max(x[1]).min(x[2]))),
+    ("clamp", Rule::Same(|x| if x[1] <= x[2] { x[0].clamp(x[1], x[2]) } else { f64::NAN })),
     ("lerp", Rule::Numeric),
     ("dot", Rule::Numeric),
     ("cross", Rule::Numeric),
@@ -136,11 +136,11 @@ impl<'a> Resolver<'a> {
             args.iter().filter_map(|arg| number(&arg.value)).map(|quantity| quantity.value).collect()
         };
         match builtin.rule {
-            Rule::Plain(f) => self.finite(f(&numbers(&args)), Dimension::NONE, used, None),
-            Rule::OfAngle(f) => self.finite(f(numbers(&args)[0]), Dimension::NONE, used, None),
-            Rule::ToAngle(f) => self.finite(f(numbers(&args)[0]), Dimension::ANGLE, used, None),
+            Rule::Plain(f) => self.result(builtin, &args, f(&numbers(&args)), Dimension::NONE, used),
+            Rule::OfAngle(f) => self.result(builtin, &args, f(numbers(&args)[0]), Dimension::NONE, used),
+            Rule::ToAngle(f) => self.result(builtin, &args, f(numbers(&args)[0]), Dimension::ANGLE, used),
             Rule::Same(f) => match self.same_dimension(builtin, &args) {
-                Some(dimension) => self.finite(f(&numbers(&args)), dimension, used, None),
+                Some(dimension) => self.result(builtin, &args, f(&numbers(&args)), dimension, used),
                 None => Value::Poison,
             },
             Rule::Color(f) => match numbers(&args)[..] {
@@ -196,9 +196,21 @@ impl<'a> Resolver<'a> {
             let (function, used) = (function.name.to_owned(), name.span);
             return self.report(Error::UnknownArgument { function, name: name.value.clone(), used, help });
         }
-        let (least, most) = function.counts();
+        let named = |(name, value): &Given<'a, '_>| Some((name.as_ref()?.value.clone(), value.span));
+        let is_wanted = function.forms.iter().any(|form| {
+            let (least, most) = Function::count(form);
+            (least..=most).contains(&args.len())
+        });
+        if let Some((name, used)) = args.iter().filter_map(named).next().filter(|_| is_wanted) {
+            return self.report(Error::DuplicateArgument { name, used });
+        }
+        let mut counts: Vec<(usize, usize)> =
+            function.forms.iter().map(|form| Function::count(form)).collect();
+        counts.sort_unstable();
+        counts.dedup();
+        let wanted = counts.iter().map(|&(least, most)| super::call::count_text(least, most));
+        let wanted = wanted.collect::<Vec<_>>().join(" or ");
         let (found, function) = (args.len(), function.name.to_owned());
-        let wanted = super::call::count_text(least, most);
         self.report(Error::ArgumentCount { function, wanted, found, used, help });
     }
 
@@ -212,6 +224,36 @@ impl<'a> Resolver<'a> {
         let help = format!("the axis comes first: `rotate({axis_text}, {angle_text})`");
         self.wrong_type("an axis", &angle.value.noun(), angle.span, &help);
         true
+    }
+
+    /// A computed number, unless it is none.
+    fn result(
+        &mut self,
+        builtin: &Builtin,
+        args: &[Spanned<Value<'a>>],
+        value: f64,
+        dimension: Dimension,
+        used: Span,
+    ) -> Value<'a> {
+        if value.is_finite() {
+            return Value::Number(Quantity::new(value, dimension));
+        }
+        let written = |arg: &Spanned<Value<'a>>| match &arg.value {
+            Value::Number(quantity) => quantity.write(),
+            _ => self.text(arg.span),
+        };
+        let call: Vec<String> = args.iter().map(written).collect();
+        let name = builtin.name();
+        let what = match (builtin.function.domain, value.is_nan()) {
+            (None, false) => "too large",
+            _ => "not defined",
+        };
+        let why = format!("`{name}({})` is {what}", call.join(", "));
+        let help = match builtin.function.domain {
+            Some(domain) => format!("`{name}` is for {domain}"),
+            None => "see what the numbers in it may be".to_owned(),
+        };
+        self.poison(Error::NotFinite { why, used, help })
     }
 
     /// The dimension that all arguments share.
@@ -244,9 +286,9 @@ impl<'a> Resolver<'a> {
     /// Functions whose result has a dimension that depends on those of the arguments.
     fn by_name(&mut self, builtin: &Builtin, args: &[Spanned<Value<'a>>], used: Span) -> Value<'a> {
         match builtin.name() {
-            "sqrt" => self.raise(args, 0.5, used),
+            "sqrt" => self.raise(builtin, args, 0.5, used),
             "pow" => match number(&args[1].value).filter(|q| q.dimension == Dimension::NONE) {
-                Some(exponent) => self.raise(args, exponent.value, used),
+                Some(exponent) => self.raise(builtin, args, exponent.value, used),
                 None => self.refuse(&args[1].value, Type::Number, args[1].span),
             },
             "atan2" => {
@@ -255,13 +297,13 @@ impl<'a> Resolver<'a> {
                 else {
                     return Value::Poison;
                 };
-                self.finite(libm::atan2(y.value, x.value), Dimension::ANGLE, used, None)
+                self.result(builtin, args, libm::atan2(y.value, x.value), Dimension::ANGLE, used)
             }
-            "lerp" => self.lerp(args),
+            "lerp" => self.lerp(builtin, args),
             "noise" => match (&args[0].value, args[0].value.triple()) {
                 (Value::Number(q), _) => Value::number(noise::noise([q.value, 0.0, 0.0])),
                 (_, Some(p)) => Value::number(noise::noise(p.to_array())),
-                (other, _) => self.refuse(other, Type::Vector, args[0].span),
+                _ => self.no_vector(builtin, &args[0]),
             },
             "len" => match &args[0].value {
                 Value::List(parts) => Value::number(parts.len() as f64),
@@ -271,44 +313,66 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    fn raise(&mut self, args: &[Spanned<Value<'a>>], exponent: f64, used: Span) -> Value<'a> {
+    fn raise(
+        &mut self,
+        builtin: &Builtin,
+        args: &[Spanned<Value<'a>>],
+        exponent: f64,
+        used: Span,
+    ) -> Value<'a> {
         let Some(base) = number(&args[0].value) else {
             return self.refuse(&args[0].value, Type::Number, args[0].span);
         };
         let value = if exponent == 0.5 { base.value.sqrt() } else { libm::pow(base.value, exponent) };
         match base.dimension.power(exponent) {
-            Some(dimension) => self.finite(value, dimension, used, None),
-            None => self.refuse(&args[0].value, Type::Number, args[0].span),
+            Some(dimension) => self.result(builtin, args, value, dimension, used),
+            None => {
+                let text = self.text(args[0].span);
+                let help = format!("take its unit away first, as in `({text}) / 1m`");
+                let wanted = if exponent == 0.5 { "a plain number or an area" } else { "a plain number" };
+                self.wrong_type(wanted, &args[0].value.noun(), args[0].span, &help)
+            }
         }
     }
 
     /// `a` at 0, `b` at 1; of numbers, points and colours.
-    fn lerp(&mut self, args: &[Spanned<Value<'a>>]) -> Value<'a> {
+    fn lerp(&mut self, builtin: &Builtin, args: &[Spanned<Value<'a>>]) -> Value<'a> {
         use crate::syntax::ast::BinaryOp::{Add, Multiply, Subtract};
         let [a, b, t] = args else { return Value::Poison };
+        let (left_noun, right_noun) = (a.value.noun(), b.value.noun());
+        if left_noun != right_noun {
+            let (operator, help) = (builtin.name(), Some("both ends have to be of the same kind".to_owned()));
+            let (left, right) = (a.span, b.span);
+            return self.poison(Error::Incompatible { operator, left_noun, right_noun, left, right, help });
+        }
         let difference = self.join(Subtract, b.clone(), a.clone());
         let part = self.join(Multiply, Spanned::new(difference, b.span), t.clone());
         self.join(Add, a.clone(), Spanned::new(part, b.span))
     }
 
+    /// Reports an argument that is no vector.
+    fn no_vector(&mut self, builtin: &Builtin, arg: &Spanned<Value<'a>>) -> Value<'a> {
+        let text = self.text(arg.span);
+        let help = match (builtin.name(), &arg.value) {
+            ("length", Value::List(_)) => format!("how many elements there are is `len({text})`"),
+            _ => format!("write for example `{}`", builtin.function.example),
+        };
+        self.wrong_type("a vector", &arg.value.noun(), arg.span, &help)
+    }
+
     fn of_vectors(&mut self, builtin: &Builtin, args: &[Spanned<Value<'a>>], used: Span) -> Value<'a> {
         let mut vectors = Vec::new();
         for arg in args {
-            let Some(vector) = vector(&arg.value) else {
-                return self.refuse(&arg.value, Type::Vector, arg.span);
-            };
+            let Some(vector) = vector(&arg.value) else { return self.no_vector(builtin, arg) };
             vectors.push(vector);
         }
         match (builtin.name(), &vectors[..]) {
-            ("dot", [(a, da), (b, db)]) => self.finite(a.dot(*b), da.times(*db), used, None),
+            ("dot", [(a, da), (b, db)]) => self.result(builtin, args, a.dot(*b), da.times(*db), used),
             ("cross", [(a, da), (b, db)]) => Value::from_triple(a.cross(*b), da.times(*db)),
-            ("length", [(a, dimension)]) => self.finite(a.length(), *dimension, used, None),
+            ("length", [(a, dimension)]) => self.result(builtin, args, a.length(), *dimension, used),
             ("normalize", [(a, _)]) => match a.try_normalize() {
                 Some(unit) => Value::from_triple(unit, Dimension::NONE),
-                None => {
-                    let help = "see what the vector may be";
-                    self.poison(Error::NotFinite { why: "a vector of length 0 has no direction", used, help })
-                }
+                None => self.result(builtin, args, f64::NAN, Dimension::NONE, used),
             },
             _ => Value::Poison,
         }
@@ -333,6 +397,11 @@ fn in_order<'f>(form: &'f [Arg], given: &[Given<'_, '_>]) -> Option<(&'f [Arg], 
         }
     }
     Some((form, order))
+}
+
+/// The tangent, infinite where the cosine is nothing but rounding error.
+fn tan(angle: f64) -> f64 {
+    if libm::cos(angle).abs() < 1e-15 { f64::INFINITY } else { libm::tan(angle) }
 }
 
 fn number(value: &Value) -> Option<Quantity> {

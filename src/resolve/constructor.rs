@@ -18,6 +18,19 @@ impl<'a> Resolver<'a> {
             Value::Number(quantity) => quantity.value,
             _ => 0.0,
         };
+        if matches!(name, "samples" | "passes") && x < 0.0 {
+            let (found, range, help) =
+                (format!("`{x}`"), "at least 1".to_owned(), format!("write `{name}(64)`"));
+            let field = name.to_owned();
+            return self.poison(Error::OutOfRange {
+                field,
+                range,
+                found,
+                used: first.span,
+                said: None,
+                help,
+            });
+        }
         let said = Spanned::new(x, used);
         let count = said.map(|x| x as u32);
         match name {
@@ -59,12 +72,9 @@ impl<'a> Resolver<'a> {
     fn unit(&mut self, vector: &Spanned<Value<'a>>) -> Option<DVec3> {
         let unit = vector.triple()?.try_normalize();
         if unit.is_none() {
-            let why = "a vector of length 0 has no direction";
-            self.report(Error::NotFinite {
-                why,
-                used: vector.span,
-                help: "write an axis such as `(0, 1, 0)`",
-            });
+            let why = "a vector of length 0 has no direction".to_owned();
+            let help = "write an axis such as `(0, 1, 0)`".to_owned();
+            self.report(Error::NotFinite { why, used: vector.span, help });
         }
         unit
     }
@@ -76,8 +86,8 @@ impl<'a> Resolver<'a> {
         let z = (from - to).try_normalize();
         let x = z.and_then(|z| up.cross(z).try_normalize());
         let (Some(z), Some(x)) = (z, x) else {
-            let why = "the two points coincide, or `up` points along them";
-            let help = "move them apart, or choose another `up`";
+            let why = "the two points coincide, or `up` points along them".to_owned();
+            let help = "move them apart, or choose another `up`".to_owned();
             self.report(Error::NotFinite { why, used: args[0].span.to(args[args.len() - 1].span), help });
             return None;
         };

@@ -136,8 +136,9 @@ impl<'a> Resolver<'a> {
             Value::Tuple(parts) => {
                 let part = ["x", "y", "z"].iter().position(|axis| *axis == field.value);
                 part.and_then(|i| parts.get(i)).cloned().unwrap_or_else(|| {
-                    let help = "its parts are `x`, `y` and `z`";
-                    self.unknown_member("this point", field, Some(help.to_owned()))
+                    let axes = if parts.len() == 2 { "`x` and `y`" } else { "`x`, `y` and `z`" };
+                    let owner = if parts.len() == 2 { "this pair" } else { "this point" };
+                    self.unknown_member(owner, field, Some(format!("its parts are {axes}")))
                 })
             }
             Value::Color(color) => match field.as_str() {
@@ -150,7 +151,17 @@ impl<'a> Resolver<'a> {
                     Some("its parts are `r`, `g` and `b`".to_owned()),
                 ),
             },
-            other => self.unknown_member(&other.noun(), field, None),
+            Value::List(_) => {
+                let counts = ["len", "length", "size", "count"].contains(&field.as_str());
+                let text = self.text(base.span);
+                let count = || format!("how many elements there are is `len({text})`");
+                let help = if counts { count() } else { format!("its first element is `{text}[0]`") };
+                self.unknown_member("a list", field, Some(help))
+            }
+            other => {
+                let help = "parts are taken of points (`.x`), colours (`.r`) and imports";
+                self.unknown_member(&other.noun(), field, Some(help.to_owned()))
+            }
         }
     }
 
@@ -182,7 +193,12 @@ impl<'a> Resolver<'a> {
         let Value::Number(Quantity { value: at, .. }) = at else { return Value::Poison };
         let found = if at < 0.0 { None } else { parts.get(at as usize) };
         found.cloned().unwrap_or_else(|| {
-            self.poison(Error::OutOfBounds { index: at, len: parts.len(), used: index.span })
+            let (elements, help) = match parts.len() {
+                0 => ("no elements".to_owned(), "nothing can be taken from it".to_owned()),
+                1 => ("1 element".to_owned(), "it is number 0".to_owned()),
+                len => (format!("{len} elements"), format!("they are numbered from 0 to {}", len - 1)),
+            };
+            self.poison(Error::OutOfBounds { index: at, elements, used: index.span, help })
         })
     }
 
@@ -325,7 +341,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    fn choice(
+    pub(super) fn choice(
         &mut self,
         condition: &'a Expr,
         then: &'a Block,
@@ -333,22 +349,16 @@ impl<'a> Resolver<'a> {
         span: Span,
         env: &Env<'a>,
     ) -> Value<'a> {
-        match self.eval_as(condition, schema::Type::Bool, env) {
+        let condition = self.eval_as(condition, schema::Type::Bool, env);
+        // Told whether the condition holds or not, for the next `--set` may turn it.
+        let Some(otherwise) = otherwise else { return self.no_else(span) };
+        match condition {
             Value::Bool(true) => self.body(then, env),
-            Value::Bool(false) => match otherwise {
-                Some(otherwise) => self.body(otherwise, env),
-                None => self.poison(Error::NoValue {
-                    what: "an `if` whose condition does not hold",
-                    used: span,
-                    help: "give it an `else { .. }`",
-                }),
-            },
+            Value::Bool(false) => self.body(otherwise, env),
             _ => {
                 // The condition is poisoned: look for mistakes in both branches, and stay silent.
                 self.body(then, env);
-                if let Some(otherwise) = otherwise {
-                    self.body(otherwise, env);
-                }
+                self.body(otherwise, env);
                 Value::Poison
             }
         }

@@ -17,6 +17,8 @@ pub struct Function {
     pub doc: &'static str,
     /// How it is computed, for whoever wants the same numbers elsewhere.
     pub method: Option<&'static str>,
+    /// For which arguments it is defined, where not for all.
+    pub domain: Option<&'static str>,
     /// A call of it.
     pub example: &'static str,
 }
@@ -139,12 +141,6 @@ impl Function {
         let least = form.iter().filter(|arg| arg.times != Times::Perhaps).count();
         let endless = form.iter().any(|arg| arg.times == Times::Often);
         (least, if endless { MOST } else { form.len() })
-    }
-
-    /// The fewest and the most arguments of all forms.
-    pub fn counts(&self) -> (usize, usize) {
-        let counts = self.forms.iter().map(|form| Self::count(form));
-        counts.fold((usize::MAX, 0), |(least, most), (low, high)| (least.min(low), most.max(high)))
     }
 
     /// A form as it is called: `look_at(from, to[, up])`.

@@ -19,12 +19,16 @@ const fn function(
     doc: &'static str,
     example: &'static str,
 ) -> Function {
-    Function { name, topic, forms, result, doc, method: None, example }
+    Function { name, topic, forms, result, doc, method: None, domain: None, example }
 }
 
 impl Function {
     const fn computed(self, method: &'static str) -> Self {
         Self { method: Some(method), ..self }
+    }
+
+    const fn defined_for(self, domain: &'static str) -> Self {
+        Self { domain: Some(domain), ..self }
     }
 }
 
@@ -54,7 +58,8 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "a number of the same unit",
         "`x`, or the end of the range from `min` to `max` beyond which it lies.",
         "clamp(1.5, 0, 1)",
-    ),
+    )
+    .defined_for("ranges whose `min` is not above their `max`"),
     function(
         Numbers,
         "lerp",
@@ -75,7 +80,8 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "a number of half the dimension",
         "The square root; that of an area is a length.",
         "sqrt(2)",
-    ),
+    )
+    .defined_for("numbers of 0 and more"),
     function(
         Numbers,
         "pow",
@@ -84,14 +90,19 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "`x` to the power of `exponent`, as `x ^ exponent` is.",
         "pow(2, 0.5)",
     ),
-    function(Numbers, "exp", X, "a plain number", "The exponential function: e to the power of `x`.", "exp(1)"),
-    function(Numbers, "log", X, "a plain number", "The natural logarithm.", "log(2)"),
+    function(Numbers, "exp", X, "a plain number", "The exponential function: e to the power of `x`.", "exp(1)")
+    .defined_for("numbers up to 709"),
+    function(Numbers, "log", X, "a plain number", "The natural logarithm.", "log(2)")
+    .defined_for("numbers greater than 0"),
     // ── Angles ─────────────────────────────────────────────────────────────────────────────────────────────────
     function(Angles, "sin", ANGLE, "a plain number", "The sine of an angle.", "sin(30deg)"),
     function(Angles, "cos", ANGLE, "a plain number", "The cosine of an angle.", "cos(30deg)"),
-    function(Angles, "tan", ANGLE, "a plain number", "The tangent of an angle.", "tan(30deg)"),
-    function(Angles, "asin", X, "an angle", "The angle from -90deg to 90deg whose sine is `x`.", "asin(0.5)"),
-    function(Angles, "acos", X, "an angle", "The angle from 0deg to 180deg whose cosine is `x`.", "acos(0.5)"),
+    function(Angles, "tan", ANGLE, "a plain number", "The tangent of an angle.", "tan(30deg)")
+    .defined_for("angles other than 90deg and its odd multiples"),
+    function(Angles, "asin", X, "an angle", "The angle from -90deg to 90deg whose sine is `x`.", "asin(0.5)")
+    .defined_for("numbers from -1 to 1"),
+    function(Angles, "acos", X, "an angle", "The angle from 0deg to 180deg whose cosine is `x`.", "acos(0.5)")
+    .defined_for("numbers from -1 to 1"),
     function(Angles, "atan", X, "an angle", "The angle from -90deg to 90deg whose tangent is `x`.", "atan(0.5)"),
     function(
         Angles,
@@ -126,7 +137,8 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "a vector of plain numbers",
         "The vector of length 1 in the same direction.",
         "normalize((0m, 2m, 0m))",
-    ),
+    )
+    .defined_for("vectors longer than 0"),
     // ── Lists ──────────────────────────────────────────────────────────────────────────────────────────────────
     function(
         Lists,
