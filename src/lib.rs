@@ -18,6 +18,7 @@ pub mod lower;
 pub mod math;
 pub mod output;
 pub mod plan;
+pub mod reference;
 pub mod render;
 pub mod resolve;
 pub mod schema;

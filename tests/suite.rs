@@ -8,6 +8,7 @@ mod laws_photon;
 mod layers;
 mod meaning;
 mod readme;
+mod reference;
 mod robust;
 mod robust_syntax;
 mod snapshots;

@@ -5,6 +5,7 @@
 mod args;
 mod check;
 mod convert;
+mod doc;
 mod fmt;
 mod interrupt;
 mod new;
@@ -37,6 +38,8 @@ enum Command {
     Plan(plan::PlanArgs),
     /// Turn an arsenal.txt scene into a .snell scene
     Convert(convert::ConvertArgs),
+    /// Explain a word of the language, or list what a scene defines
+    Doc(doc::DocArgs),
     /// Start a first scene to edit
     New(new::NewArgs),
 }
@@ -73,6 +76,7 @@ pub fn run() -> ExitCode {
         Command::Fmt(args) => fmt::run(&args),
         Command::Plan(args) => plan::run(&args),
         Command::Convert(args) => convert::run(&args),
+        Command::Doc(args) => doc::run(&args),
         Command::New(args) => new::run(&args),
     };
     exit.into()

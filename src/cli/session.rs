@@ -5,6 +5,7 @@ use super::{note, print};
 use crate::check::Checked;
 use crate::diag::{Problems, Report, Style};
 use crate::ir::Camera;
+use crate::resolve::Offer;
 use crate::source::{Disk, Files, Missing, SourceMap};
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
@@ -48,6 +49,12 @@ impl Session {
     /// Compiles the text. `None` when so much is wrong that nothing is left to check.
     pub fn compile(&mut self) -> Option<Checked> {
         crate::compile(&mut self.sources, &self.files, self.main, &self.sets, &mut self.problems)
+    }
+
+    /// What the scene defines.
+    pub fn survey(&mut self) -> Vec<Offer> {
+        let program = crate::syntax::parse(&mut self.sources, &self.files, self.main, &mut self.problems);
+        crate::resolve::survey(&program, &self.sources, &mut self.problems)
     }
 
     /// The camera that the scene is seen through: the one asked for, or the first.
@@ -145,6 +152,12 @@ fn style(color: Color) -> Style {
     };
     let width = if terminal { terminal_width() } else { 100 };
     Style { color, unicode: speaks_unicode(), width }
+}
+
+/// The width of what goes to standard output: that of its terminal, or a page's.
+pub fn result_width() -> usize {
+    let columns = terminal_size::terminal_size_of(std::io::stdout()).map(|(width, _)| usize::from(width.0));
+    columns.unwrap_or(80).clamp(60, 100)
 }
 
 /// The terminal's width, between 60 and 120 columns.

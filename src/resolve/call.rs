@@ -7,7 +7,7 @@ use super::{Env, Resolver, Step, Value};
 use crate::diag::did_you_mean;
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
-use crate::syntax::ast::{Arg, Expr, ExprKind, Formal, Name};
+use crate::syntax::ast::{self, Arg, Expr, ExprKind, Formal, Name};
 use std::rc::Rc;
 
 impl<'a> Resolver<'a> {
@@ -21,8 +21,11 @@ impl<'a> Resolver<'a> {
         }
         match self.eval(callee, env) {
             Value::Builtin(builtin) => {
-                let values = self.positional(builtin.name, builtin.usage, args, env);
-                values.map_or(Value::Poison, |values| self.call_builtin(builtin, values, used))
+                let mut given = |arg: &'a Arg| {
+                    (arg.name.as_ref(), Spanned::new(self.eval(&arg.value, env), arg.value.span))
+                };
+                let given: Vec<_> = args.iter().map(&mut given).collect();
+                self.call_builtin(builtin, given, used)
             }
             Value::Function(function) => self.call_function(&function, args, used, env),
             Value::Poison => {
@@ -36,21 +39,6 @@ impl<'a> Resolver<'a> {
                 self.wrong_type("a function", &other.noun(), callee.span, "only functions can be called")
             }
         }
-    }
-
-    fn positional(
-        &mut self,
-        function: &str,
-        usage: &str,
-        args: &'a [Arg],
-        env: &Env<'a>,
-    ) -> Option<Vec<Spanned<Value<'a>>>> {
-        if let Some(name) = args.iter().find_map(|arg| arg.name.as_ref()) {
-            let (function, help) = (function.to_owned(), format!("write `{usage}`"));
-            self.report(Error::UnknownArgument { function, name: name.value.clone(), used: name.span, help });
-            return None;
-        }
-        Some(args.iter().map(|arg| Spanned::new(self.eval(&arg.value, env), arg.value.span)).collect())
     }
 
     fn call_function(
@@ -129,12 +117,7 @@ impl<'a> Resolver<'a> {
             Some(wanted) => {
                 let index = formals.iter().position(|formal| formal.name.value == wanted.value);
                 if index.is_none() {
-                    let names = || formals.iter().map(|formal| formal.name.as_str());
-                    let help = did_you_mean(wanted, names()).unwrap_or_else(|| {
-                        format!("its parameters are {}", names().collect::<Vec<_>>().join(", "))
-                    });
-                    let (used, wanted) = (wanted.span, wanted.value.clone());
-                    self.report(Error::UnknownArgument { function: name, name: wanted, used, help });
+                    self.report(unknown_argument(function.definition, wanted));
                 }
                 index
             }
@@ -157,6 +140,7 @@ impl<'a> Resolver<'a> {
 
     /// A default is worked out where the function stands.
     fn default_of(&mut self, function: &Function<'a>, default: &'a Expr, ty: Option<Type>) -> Value<'a> {
+        self.enter(default.span);
         let unit = std::mem::replace(&mut self.unit, function.unit);
         let value = self.typed(default, ty, &function.scope);
         self.unit = unit;
@@ -206,13 +190,22 @@ impl<'a> Resolver<'a> {
     pub(super) fn type_named(&mut self, name: &Name) -> Option<Type> {
         let ty = Type::named(name);
         if ty.is_none() {
-            let names = || Type::NAMED.iter().map(|(name, _)| *name);
+            let names = || Type::NAMED.iter().map(|known| known.name);
             let help = did_you_mean(name, names())
                 .unwrap_or_else(|| format!("the types are {}", names().collect::<Vec<_>>().join(", ")));
             self.report(Error::UnknownType { name: name.value.clone(), used: name.span, help });
         }
         ty
     }
+}
+
+/// The report of an argument by a name that the function does not have.
+pub fn unknown_argument(function: &ast::Function, wanted: &Name) -> Error {
+    let names = || function.formals.iter().map(|formal| formal.name.as_str());
+    let help = did_you_mean(wanted, names())
+        .unwrap_or_else(|| format!("its parameters are {}", names().collect::<Vec<_>>().join(", ")));
+    let (function, name) = (function.name.value.clone(), wanted.value.clone());
+    Error::UnknownArgument { function, name, used: wanted.span, help }
 }
 
 /// "1 argument", "2 to 3 arguments".
@@ -235,9 +228,9 @@ fn usage(function: &Function) -> String {
 }
 
 /// Where the value of a body stands.
-fn value_span(body: &crate::syntax::ast::Block, otherwise: Span) -> Span {
+fn value_span(body: &ast::Block, otherwise: Span) -> Span {
     match body.entries.last() {
-        Some(crate::syntax::ast::Entry::Item(item)) => item.span,
+        Some(ast::Entry::Item(item)) => item.span,
         _ => otherwise,
     }
 }

@@ -56,10 +56,7 @@ impl<'a> Resolver<'a> {
         if let Some(words) = ty.words() {
             return match find_word(words, name) {
                 Some(word) => Value::Word(word),
-                None => self.unknown_word(name, words, used),
-            };
-        }
-        match (ty, name) {
+
             (Type::Exposure, "auto") => Value::Word("auto"),
             (Type::Projection, "uv") => Value::Projection(ir::Projection::Uv),
             (Type::Lens, "pinhole") => lens(self, "pinhole"),
@@ -76,6 +73,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
+<<<<<<< HEAD
     fn unknown_word(&mut self, word: &str, words: &'static [&'static str], used: Span) -> Value<'a> {
         if words == Type::METHODS && word == "hybrid" {
             let help = "write `method: auto`, or choose `pt` or `ppm`".to_owned();
@@ -87,6 +85,8 @@ impl<'a> Resolver<'a> {
         self.poison(Error::UnknownWord { word: word.to_owned(), wanted, used, help })
     }
 
+=======
+>>>>>>> dfc48d4 (Look for unknown names where evaluation does not come: branches not taken, loops without a turn, unused defaults)
     fn unknown_material(&mut self, name: &str, used: Span, env: &Env<'a>) -> Value<'a> {
         if let Some(color) = color::named(name) {
             return self.coerce(Value::Color(color), Type::Material, used);
@@ -258,6 +258,29 @@ impl<'a> Resolver<'a> {
         let (wanted, found, help) = (wanted.to_owned(), found.to_owned(), help.to_owned());
         let text = self.text(used);
         self.poison(Error::WrongType { wanted, text, found, used, help })
+    }
+}
+
+/// The report of a word that is none of those that may stand there.
+pub fn unknown_word(word: &str, words: &'static [&'static str], used: Span) -> Error {
+    if words == Type::METHODS && word == "hybrid" {
+        let help = "write `method: auto`, or choose `pt` or `ppm`".to_owned();
+        return Error::NotYet { word: word.to_owned(), used, help };
+    }
+    let wanted = Type::Choice(words).noun();
+    let help = did_you_mean(word, words.iter().copied())
+        .unwrap_or_else(|| format!("write for example `{}`", words[0]));
+    Error::UnknownWord { word: word.to_owned(), wanted, used, help }
+}
+
+/// Whether a word means something where this type is wanted, whatever the scene defines.
+pub fn is_word_of(ty: Type, word: &str) -> bool {
+    match ty {
+        _ if ty.words().is_some_and(|words| words.contains(&word)) => true,
+        Type::Exposure => word == "auto",
+        Type::Projection => word == "uv",
+        Type::Lens => ["pinhole", "thin"].contains(&word),
+        _ => false,
     }
 }
 

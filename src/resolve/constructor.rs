@@ -1,35 +1,39 @@
 //! Functions that make transforms, curves, filters and rules to stop by.
 
-use super::builtin::Builtin;
 use super::error::Error;
 use super::{Env, Resolver, Value};
 use crate::diag::did_you_mean;
 use crate::ir::{self, CurveKind, Filter, Stop, TransformStep};
 use crate::math::float::sin_cos64;
 use crate::math::{DAffine3, DMat3, DVec2, DVec3};
-use crate::schema::{self, Type};
+use crate::schema::{self, Topic, Type};
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::{Arg, Expr, ExprKind, Name};
 
-/// The words before a list of points.
-const CURVES: [&str; 4] = ["bezier", "bspline", "polyline", "polygon"];
-
 impl<'a> Resolver<'a> {
     /// The result of a constructor whose arguments have the right types already.
-    pub(super) fn construct(
-        &mut self,
-        builtin: &Builtin,
-        args: &[Spanned<Value<'a>>],
-        used: Span,
-    ) -> Value<'a> {
+    pub(super) fn construct(&mut self, name: &str, args: &[Spanned<Value<'a>>], used: Span) -> Value<'a> {
         let first = &args[0];
         let x = match first.value {
             Value::Number(quantity) => quantity.value,
             _ => 0.0,
         };
+        if matches!(name, "samples" | "passes") && x < 0.0 {
+            let (found, range, help) =
+                (format!("`{x}`"), "at least 1".to_owned(), format!("write `{name}(64)`"));
+            let field = name.to_owned();
+            return self.poison(Error::OutOfRange {
+                field,
+                range,
+                found,
+                used: first.span,
+                said: None,
+                help,
+            });
+        }
         let said = Spanned::new(x, used);
         let count = said.map(|x| x as u32);
-        match builtin.name {
+        match name {
             "samples" | "passes" => Value::Stop(Stop { passes: Some(count), ..Stop::default() }),
             "time" => Value::Stop(Stop { seconds: Some(said), ..Stop::default() }),
             "error" => Value::Stop(Stop { error: Some(said), ..Stop::default() }),
@@ -37,26 +41,21 @@ impl<'a> Resolver<'a> {
             "tent" => Value::Filter(Filter::Tent(x)),
             "gaussian" => Value::Filter(Filter::Gaussian(x)),
             "image" => self.image_file(first, used),
-            _ => match self.matrix_of(builtin, args, x) {
+            _ => match self.matrix_of(name, args, x) {
                 Some(matrix) => Value::Transform([TransformStep { matrix, span: used }].into()),
                 None => Value::Poison,
             },
         }
     }
 
-    fn matrix_of(&mut self, builtin: &Builtin, args: &[Spanned<Value<'a>>], x: f64) -> Option<DAffine3> {
+    fn matrix_of(&mut self, name: &str, args: &[Spanned<Value<'a>>], x: f64) -> Option<DAffine3> {
         let linear = |matrix| Some(DAffine3::from_mat3(matrix));
-        match builtin.name {
-            "translate" => Some(DAffine3::from_translation(self.three(args, Type::Length, Type::Point)?)),
-            "scale" => {
-                let factors = if args.len() == 1 && matches!(args[0].value, Value::Number(_)) {
-                    let all = self.coerce(args[0].value.clone(), Type::Number, args[0].span);
-                    (!all.is_poison()).then_some(DVec3::splat(x))?
-                } else {
-                    self.three(args, Type::Number, Type::Vector)?
-                };
-                Some(DAffine3::from_scale(factors))
-            }
+        match name {
+            "translate" => Some(DAffine3::from_translation(three(args)?)),
+            "scale" => match args {
+                [Spanned { value: Value::Number(_), .. }] => Some(DAffine3::from_scale(DVec3::splat(x))),
+                _ => Some(DAffine3::from_scale(three(args)?)),
+            },
             "rotate_x" => linear(rotation(DVec3::X, x)),
             "rotate_y" => linear(rotation(DVec3::Y, x)),
             "rotate_z" => linear(rotation(DVec3::Z, x)),
@@ -70,33 +69,12 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Three arguments, or one tuple of three.
-    fn three(&mut self, args: &[Spanned<Value<'a>>], part: Type, whole: Type) -> Option<DVec3> {
-        match args {
-            [tuple] => self.coerce(tuple.value.clone(), whole, tuple.span).triple(),
-            [_, _, _] => {
-                let parts: Vec<Value> =
-                    args.iter().map(|arg| self.coerce(arg.value.clone(), part, arg.span)).collect();
-                Value::Tuple(parts.into()).triple()
-            }
-            _ => {
-                let (first, second) = (args[0].span, args[args.len() - 1].span);
-                let (wanted, help) = (whole.noun(), format!("write three, such as `{}`", whole.example()));
-                self.wrong_type(&wanted, "two numbers", first.to(second), &help);
-                None
-            }
-        }
-    }
-
     fn unit(&mut self, vector: &Spanned<Value<'a>>) -> Option<DVec3> {
         let unit = vector.triple()?.try_normalize();
         if unit.is_none() {
-            let why = "a vector of length 0 has no direction";
-            self.report(Error::NotFinite {
-                why,
-                used: vector.span,
-                help: "write an axis such as `(0, 1, 0)`",
-            });
+            let why = "a vector of length 0 has no direction".to_owned();
+            let help = "write an axis such as `(0, 1, 0)`".to_owned();
+            self.report(Error::NotFinite { why, used: vector.span, help });
         }
         unit
     }
@@ -108,8 +86,8 @@ impl<'a> Resolver<'a> {
         let z = (from - to).try_normalize();
         let x = z.and_then(|z| up.cross(z).try_normalize());
         let (Some(z), Some(x)) = (z, x) else {
-            let why = "the two points coincide, or `up` points along them";
-            let help = "move them apart, or choose another `up`";
+            let why = "the two points coincide, or `up` points along them".to_owned();
+            let help = "move them apart, or choose another `up`".to_owned();
             self.report(Error::NotFinite { why, used: args[0].span.to(args[args.len() - 1].span), help });
             return None;
         };
@@ -137,8 +115,9 @@ impl<'a> Resolver<'a> {
     /// `bezier [..]`, `polygon [..]`: a word that says how points are joined.
     pub(super) fn tagged(&mut self, tag: &'a Name, value: &'a Expr, env: &Env<'a>) -> Value<'a> {
         let Some(kind) = curve_kind(tag) else {
-            let help = did_you_mean(tag, CURVES)
-                .unwrap_or_else(|| format!("the words before a list are {}", schema::quoted(&CURVES)));
+            let curves = curve_names();
+            let help = did_you_mean(tag, curves.iter().copied())
+                .unwrap_or_else(|| format!("the words before a list are {}", schema::quoted(&curves)));
             let wanted = "a way to join points".to_owned();
             return self.poison(Error::UnknownWord { word: tag.value.clone(), wanted, used: tag.span, help });
         };
@@ -226,6 +205,19 @@ impl<'a> Resolver<'a> {
             }
         }
     }
+}
+
+/// Three numbers as arguments, or as one tuple.
+fn three(args: &[Spanned<Value>]) -> Option<DVec3> {
+    match args {
+        [tuple] => tuple.triple(),
+        _ => Value::Tuple(args.iter().map(|arg| arg.value.clone()).collect()).triple(),
+    }
+}
+
+/// The words before a list of points.
+fn curve_names() -> Vec<&'static str> {
+    schema::functions().filter(|f| f.topic == Topic::Curves).map(|f| f.name).collect()
 }
 
 fn curve_kind(word: &str) -> Option<CurveKind> {

@@ -1,6 +1,6 @@
 //! Quantities: numbers with the exponents of their units.
 
-use crate::schema::Type;
+use crate::schema::{self, Type};
 
 /// Exponents of length, angle, time, power, temperature, pixel, exposure step and f-number.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -117,38 +117,11 @@ impl Quantity {
     }
 }
 
-/// Every unit: its name, its size in SI units, its dimension. A lumen is 1/683 W, as power is luminance-weighted.
-pub const UNITS: &[(&str, f64, Dimension)] = &[
-    ("nm", 1e-9, Dimension::LENGTH),
-    ("um", 1e-6, Dimension::LENGTH),
-    ("mm", 1e-3, Dimension::LENGTH),
-    ("cm", 1e-2, Dimension::LENGTH),
-    ("m", 1.0, Dimension::LENGTH),
-    ("km", 1e3, Dimension::LENGTH),
-    ("in", 0.0254, Dimension::LENGTH),
-    ("ft", 0.3048, Dimension::LENGTH),
-    ("deg", std::f64::consts::PI / 180.0, Dimension::ANGLE),
-    ("rad", 1.0, Dimension::ANGLE),
-    ("turn", std::f64::consts::TAU, Dimension::ANGLE),
-    ("ns", 1e-9, Dimension::TIME),
-    ("us", 1e-6, Dimension::TIME),
-    ("ms", 1e-3, Dimension::TIME),
-    ("s", 1.0, Dimension::TIME),
-    ("min", 60.0, Dimension::TIME),
-    ("mW", 1e-3, Dimension::POWER),
-    ("W", 1.0, Dimension::POWER),
-    ("kW", 1e3, Dimension::POWER),
-    ("lm", 1.0 / 683.0, Dimension::POWER),
-    ("K", 1.0, Dimension::TEMPERATURE),
-    ("px", 1.0, Dimension::PIXEL),
-    ("EV", 1.0, Dimension::EXPOSURE),
-    ("%", 0.01, Dimension::NONE),
-];
-
 /// A numeral with a unit in SI units; `None` for an unknown unit. Decimal prefixes are divided out where that rounds
 /// only once, so that `30cm` is exactly 0.3 m.
 pub fn with_unit(value: f64, unit: &str) -> Option<Quantity> {
-    let &(_, size, dimension) = UNITS.iter().find(|(name, ..)| *name == unit)?;
+    let unit = schema::unit(unit)?;
+    let (size, dimension) = (unit.size, Dimension::of(unit.of)?);
     let inverse = (1.0 / size).round();
     let decimal = size < 1.0 && 1.0 / inverse == size && dimension != Dimension::ANGLE;
     Some(Quantity::new(if decimal { value / inverse } else { value * size }, dimension))

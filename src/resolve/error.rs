@@ -279,18 +279,20 @@ pub enum Error {
     #[error("this comes to no number: {why}")]
     #[diagnostic(code(snell::resolve::not_finite), help("{help}"))]
     NotFinite {
-        why: &'static str,
+        why: String,
         #[label("here")]
         used: Span,
-        help: &'static str,
+        help: String,
     },
-    #[error("the list has {len} elements, and this asks for number {index}")]
-    #[diagnostic(code(snell::resolve::out_of_bounds), help("elements are counted from 0"))]
+    #[error("the list has {elements}, and this asks for number {index}")]
+    #[diagnostic(code(snell::resolve::out_of_bounds))]
     OutOfBounds {
         index: f64,
-        len: usize,
+        elements: String,
         #[label("beyond the list")]
         used: Span,
+        #[help]
+        help: String,
     },
 
     // ── Calls ──────────────────────────────────────────────────────────────────────────────────────────────────

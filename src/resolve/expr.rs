@@ -1,7 +1,7 @@
 //! Expressions: each gives a value.
 
 use super::builtin;
-use super::dimension::{Dimension, Quantity, UNITS, with_unit};
+use super::dimension::{Dimension, Quantity, with_unit};
 use super::error::Error;
 use super::scope::{Definition, Kind, Scope};
 use super::{Env, Resolver, Step, Value, color};
@@ -59,12 +59,7 @@ impl<'a> Resolver<'a> {
         if let Some(quantity) = with_unit(value, unit) {
             return Value::Number(quantity);
         }
-        let known = || UNITS.iter().map(|(name, ..)| *name);
-        let help = spelled_out(unit)
-            .map(|short| format!("did you mean `{short}`?"))
-            .or_else(|| did_you_mean(unit, known()))
-            .unwrap_or_else(|| format!("the units are {}", known().collect::<Vec<_>>().join(" ")));
-        self.poison(Error::UnknownUnit { unit: unit.value.clone(), used: unit.span, help })
+        self.poison(unknown_unit(unit))
     }
 
     fn size(&mut self, width: &'a Expr, height: &'a Expr, env: &Env<'a>) -> Value<'a> {
@@ -141,8 +136,9 @@ impl<'a> Resolver<'a> {
             Value::Tuple(parts) => {
                 let part = ["x", "y", "z"].iter().position(|axis| *axis == field.value);
                 part.and_then(|i| parts.get(i)).cloned().unwrap_or_else(|| {
-                    let help = "its parts are `x`, `y` and `z`";
-                    self.unknown_member("this point", field, Some(help.to_owned()))
+                    let axes = if parts.len() == 2 { "`x` and `y`" } else { "`x`, `y` and `z`" };
+                    let owner = if parts.len() == 2 { "this pair" } else { "this point" };
+                    self.unknown_member(owner, field, Some(format!("its parts are {axes}")))
                 })
             }
             Value::Color(color) => match field.as_str() {
@@ -155,7 +151,17 @@ impl<'a> Resolver<'a> {
                     Some("its parts are `r`, `g` and `b`".to_owned()),
                 ),
             },
-            other => self.unknown_member(&other.noun(), field, None),
+            Value::List(_) => {
+                let counts = ["len", "length", "size", "count"].contains(&field.as_str());
+                let text = self.text(base.span);
+                let count = || format!("how many elements there are is `len({text})`");
+                let help = if counts { count() } else { format!("its first element is `{text}[0]`") };
+                self.unknown_member("a list", field, Some(help))
+            }
+            other => {
+                let help = "parts are taken of points (`.x`), colours (`.r`) and imports";
+                self.unknown_member(&other.noun(), field, Some(help.to_owned()))
+            }
         }
     }
 
@@ -187,7 +193,12 @@ impl<'a> Resolver<'a> {
         let Value::Number(Quantity { value: at, .. }) = at else { return Value::Poison };
         let found = if at < 0.0 { None } else { parts.get(at as usize) };
         found.cloned().unwrap_or_else(|| {
-            self.poison(Error::OutOfBounds { index: at, len: parts.len(), used: index.span })
+            let (elements, help) = match parts.len() {
+                0 => ("no elements".to_owned(), "nothing can be taken from it".to_owned()),
+                1 => ("1 element".to_owned(), "it is number 0".to_owned()),
+                len => (format!("{len} elements"), format!("they are numbered from 0 to {}", len - 1)),
+            };
+            self.poison(Error::OutOfBounds { index: at, elements, used: index.span, help })
         })
     }
 
@@ -238,9 +249,11 @@ impl<'a> Resolver<'a> {
         let mut list = Vec::new();
         let complete = self.repeat(name, range, env, |this, turn| {
             let keep = filter.is_none_or(|filter| {
+                this.enter(filter.span);
                 !matches!(this.eval_as(filter, schema::Type::Bool, turn), Value::Bool(false))
             });
             if keep {
+                this.enter(value.span);
                 list.push(this.eval(value, turn));
             }
             this.spend_elements(1, value.span)
@@ -328,7 +341,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    fn choice(
+    pub(super) fn choice(
         &mut self,
         condition: &'a Expr,
         then: &'a Block,
@@ -336,26 +349,30 @@ impl<'a> Resolver<'a> {
         span: Span,
         env: &Env<'a>,
     ) -> Value<'a> {
-        match self.eval_as(condition, schema::Type::Bool, env) {
+        let condition = self.eval_as(condition, schema::Type::Bool, env);
+        // Told whether the condition holds or not, for the next `--set` may turn it.
+        let Some(otherwise) = otherwise else { return self.no_else(span) };
+        match condition {
             Value::Bool(true) => self.body(then, env),
-            Value::Bool(false) => match otherwise {
-                Some(otherwise) => self.body(otherwise, env),
-                None => self.poison(Error::NoValue {
-                    what: "an `if` whose condition does not hold",
-                    used: span,
-                    help: "give it an `else { .. }`",
-                }),
-            },
+            Value::Bool(false) => self.body(otherwise, env),
             _ => {
                 // The condition is poisoned: look for mistakes in both branches, and stay silent.
                 self.body(then, env);
-                if let Some(otherwise) = otherwise {
-                    self.body(otherwise, env);
-                }
+                self.body(otherwise, env);
                 Value::Poison
             }
         }
     }
+}
+
+/// The report of a unit that there is not.
+pub fn unknown_unit(unit: &Name) -> Error {
+    let known = || schema::UNITS.iter().map(|unit| unit.name);
+    let help = spelled_out(unit)
+        .map(|short| format!("did you mean `{short}`?"))
+        .or_else(|| did_you_mean(unit, known()))
+        .unwrap_or_else(|| format!("the units are {}", known().collect::<Vec<_>>().join(" ")));
+    Error::UnknownUnit { unit: unit.value.clone(), used: unit.span, help }
 }
 
 /// The unit that a word spells out.
@@ -392,7 +409,7 @@ fn named(value: &Value) -> Option<u32> {
 /// The names that may have been meant where a value is wanted, the scene's own first.
 fn known_names<'n>(visible: &[Rc<Definition<'n>>]) -> Vec<&'n str> {
     let mut known: Vec<&str> = visible.iter().map(|definition| definition.name).collect();
-    for name in builtin::names().chain(color::NAMED.iter().map(|(name, _)| *name)) {
+    for name in builtin::names().chain(schema::COLORS.iter().map(|(name, _)| *name)) {
         known.push(name);
     }
     known

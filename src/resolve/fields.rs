@@ -61,6 +61,7 @@ impl<'a> Resolver<'a> {
             }
         }
         self.report_missing(&mut fields);
+        self.report_choices(&mut fields);
         fields
     }
 
@@ -90,45 +91,80 @@ impl<'a> Resolver<'a> {
         self.poison(Error::OutOfRange { field: field.name.to_owned(), range, found, used, said: None, help })
     }
 
+    /// Reports fields that are missing, alone or beside others. In a block that could not be read whole, what seems
+    /// missing may be what could not be read.
     fn report_missing(&mut self, fields: &mut Fields<'a>) {
-        // In a block that could not be read whole, what seems missing may be what could not be read.
         let excused = fields.poisoned;
-        for (slot, field) in fields.slots.iter().zip(fields.block.fields()) {
-            if slot.is_none() && field.need == Need::Required {
-                fields.poisoned = true;
-                if !excused {
-                    let (block, name) = (fields.block.kind.to_owned(), field.name.to_owned());
-                    let help =
-                        format!("write {} for it, such as `{name}: {}`", field.ty.noun(), field.example());
-                    self.report(Error::MissingField { block, field: name, head: fields.head, help });
-                }
+        let is_missing = |field: &Field| !fields.has(field.name) && field.need == Need::Required;
+        let mut missing: Vec<&'static Field> =
+            fields.block.fields().filter(|field| is_missing(field)).collect();
+        let beside = fields.block.fields().filter(|field| fields.has(field.name));
+        let wanted = beside.filter_map(|field| fields.block.field(field.beside?));
+        missing.extend(wanted.filter(|field| !fields.has(field.name)));
+        for field in missing {
+            fields.poisoned = true;
+            if !excused {
+                self.missing(fields, field);
             }
         }
     }
 
-    /// Reports that none of `names` is given where one has to be.
-    pub(super) fn needs_one(&mut self, fields: &Fields<'a>, names: &[&str]) {
-        if fields.poisoned {
+    fn missing(&mut self, fields: &Fields<'a>, field: &Field) {
+        let (block, name) = (fields.block.kind.to_owned(), field.name.to_owned());
+        let help = format!("write {} for it, such as `{name}: {}`", field.ty.noun(), field.example());
+        self.report(Error::MissingField { block, field: name, head: fields.head, help });
+    }
+
+    /// Reports choices that were not made, made by half, or made twice.
+    fn report_choices(&mut self, fields: &mut Fields<'a>) {
+        for choice in fields.block.choices {
+            let taken: Vec<&[&str]> =
+                choice.ways.iter().copied().filter(|way| fields.first_of(way).is_some()).collect();
+            match taken[..] {
+                [] if choice.required => self.needs_one(fields, choice),
+                [way] => self.report_rest(fields, way),
+                [one, other, ..] => self.conflict(fields, one, other),
+                [] => {}
+            }
+        }
+    }
+
+    /// Reports the first field that a way lacks.
+    fn report_rest(&mut self, fields: &mut Fields<'a>, way: &[&'static str]) {
+        let lacking = fields.mandatory(way).into_iter().find(|name| !fields.has(name));
+        let Some(field) = lacking.and_then(|name| fields.block.field(name)) else { return };
+        if !std::mem::replace(&mut fields.poisoned, true) {
+            self.missing(fields, field);
+        }
+    }
+
+    /// Reports that none of the ways of a choice was taken.
+    fn needs_one(&mut self, fields: &mut Fields<'a>, choice: &schema::Choice) {
+        if std::mem::replace(&mut fields.poisoned, true) {
             return;
         }
-        let example = fields.block.field(names[0]).map_or("", Field::example);
-        let block = fields.block.kind.to_owned();
-        let field = names.join("` or `");
-        let help = format!("say one of them, such as `{}: {example}`", names[0]);
+        let ways: Vec<String> = choice.ways.iter().map(|way| fields.mandatory(way).join("` and `")).collect();
+        let example =
+            |name: &&str| format!("`{name}: {}`", fields.block.field(name).map_or("", Field::example));
+        let examples: Vec<String> = fields.mandatory(choice.ways[0]).iter().map(example).collect();
+        let (block, field) = (fields.block.kind.to_owned(), ways.join("` or `"));
+        let help = format!("say one of them, such as {}", examples.join(" and "));
         self.report(Error::MissingField { block, field, head: fields.head, help });
     }
 
-    /// Reports two fields that say the same thing. The result says whether that was so.
-    pub(super) fn conflict(&mut self, fields: &Fields<'a>, one: &str, other: &str) -> bool {
-        let (Some(first), Some(second)) = (fields.span(one), fields.span(other)) else { return false };
+    /// Reports two ways to say the same thing.
+    fn conflict(&mut self, fields: &Fields<'a>, one: &[&str], other: &[&str]) {
+        let (Some((one, first)), Some((other, second))) = (fields.first_of(one), fields.first_of(other))
+        else {
+            return;
+        };
         let (one, other) = (one.to_owned(), other.to_owned());
         self.report(Error::ConflictingFields { one, other, first, second });
-        true
     }
 }
 
 /// Near names, then what other programs call it, then all there is.
-fn unknown_field_help(block: &schema::Block, name: &Name) -> String {
+pub fn unknown_field_help(block: &schema::Block, name: &Name) -> String {
     // What one block calls its centre is the position of another.
     let ours = match schema::foreign_field(name).unwrap_or(name) {
         "center" | "position" => ["center", "position"].into_iter().find(|ours| block.field(ours).is_some()),
@@ -157,6 +193,17 @@ impl<'a> Fields<'a> {
 
     fn slot(&self, name: &str) -> Option<&Spanned<Value<'a>>> {
         self.slots[self.block.position(name)?].as_ref()
+    }
+
+    /// The first of these that was written, and where.
+    fn first_of<'n>(&self, names: &[&'n str]) -> Option<(&'n str, Span)> {
+        names.iter().find_map(|&name| Some((name, self.span(name)?)))
+    }
+
+    /// Those of a way's fields that have no default.
+    fn mandatory(&self, way: &[&'static str]) -> Vec<&'static str> {
+        let has_default = |name: &&str| self.default(name).is_some();
+        way.iter().copied().filter(|name| !has_default(name)).collect()
     }
 
     /// Whether it was written, be it poisoned.
@@ -219,10 +266,10 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// The default of a pair of whole numbers.
-    pub fn pair(&self, name: &str) -> Option<Spanned<(u32, u32)>> {
+    /// The default of a size in pixels.
+    pub fn size(&self, name: &str) -> Option<Spanned<(u32, u32)>> {
         match self.default(name)? {
-            Spanned { value: Literal::Pair([width, height]), span } => {
+            Spanned { value: Literal::Size([width, height]), span } => {
                 Some(Spanned::new((width, height), span))
             }
             _ => None,
@@ -255,6 +302,9 @@ impl<'a> Fields<'a> {
             None => match self.default(name)? {
                 Spanned { value: Literal::Triple(xyz), span } => {
                     Some(Spanned::new(DVec3::from_array(xyz), span))
+                }
+                Spanned { value: Literal::Pair([x, y]), span } => {
+                    Some(Spanned::new(DVec3::new(x, y, 0.0), span))
                 }
                 _ => None,
             },

@@ -12,6 +12,11 @@ use crate::source::Span;
 use crate::syntax::ast::{Block, Entry, Expr, ExprKind, FileIndex, Item, ItemKind, Name, Object, Place};
 use std::rc::Rc;
 
+/// Where items stand that belong to the top level.
+const INSIDE: &str = "inside of something";
+/// What to do about them.
+const TO_TOP: &str = "move it to the top level";
+
 /// Where objects go.
 pub enum Sink {
     /// Into the picture.
@@ -31,10 +36,10 @@ impl<'a> Resolver<'a> {
         let outer = std::mem::replace(&mut self.unit, self.units[file.0 as usize]);
         let program = self.program;
         for item in &program.files[file.0 as usize].items {
-            if let ItemKind::Include { file: Some(included), .. } = item.kind {
-                self.run_items(included, env);
-            } else {
-                self.item(item, env, &mut Sink::Scene);
+            match item.kind {
+                ItemKind::Include { file: Some(included), .. } => self.run_items(included, env),
+                ItemKind::Include { file: None, .. } | ItemKind::Units(_) => {}
+                _ => self.item(item, env, &mut Sink::Scene),
             }
             let allows = item.allows.iter().map(|allow| (allow.code.clone(), item.span));
             self.scene.allows.extend(allows);
@@ -62,23 +67,16 @@ impl<'a> Resolver<'a> {
             ItemKind::If { condition, then, otherwise } => {
                 self.branch(condition, then, otherwise.as_ref(), env, sink)
             }
-            ItemKind::Units(_) | ItemKind::Include { .. } if matches!(sink, Sink::Group(_)) => {
-                self.misplaced_item(
-                    "`units` and `include`",
-                    "in a group",
-                    item.span,
-                    "move it to the top level",
-                );
+            ItemKind::Units(_) => self.misplaced_item("`units`", INSIDE, item.span, TO_TOP),
+            ItemKind::Include { .. } => self.misplaced_item("`include`", INSIDE, item.span, TO_TOP),
+            ItemKind::Param { .. } if !env.is_root() => {
+                let help = "move it to the top level, where `--set` finds it; or make it a `let`";
+                self.misplaced_item("a parameter", INSIDE, item.span, help);
             }
             // In source order, so that a long chain of definitions is no deep one.
             ItemKind::Let { name, .. } => self.evaluate_now(name, env),
             // Other definitions are evaluated when something asks for them.
-            ItemKind::Units(_)
-            | ItemKind::Include { .. }
-            | ItemKind::Import { .. }
-            | ItemKind::Param { .. }
-            | ItemKind::Fn(_)
-            | ItemKind::Poison => {}
+            ItemKind::Import { .. } | ItemKind::Param { .. } | ItemKind::Fn(_) | ItemKind::Poison => {}
         }
     }
 
@@ -93,6 +91,7 @@ impl<'a> Resolver<'a> {
 
     /// The items of a block, in a scope of their own.
     fn block_items(&mut self, block: &'a Block, env: &Env<'a>, sink: &mut Sink) {
+        self.enter(block.span);
         let scope = self.scope_of(block, env);
         for entry in &block.entries {
             match entry {
@@ -247,6 +246,7 @@ impl<'a> Resolver<'a> {
 
     /// The value of a body: its definitions hold in it, and one value or object stands in it.
     pub(super) fn body(&mut self, block: &'a Block, env: &Env<'a>) -> Value<'a> {
+        self.enter(block.span);
         if block.poisoned {
             return Value::Poison;
         }
@@ -271,6 +271,12 @@ impl<'a> Resolver<'a> {
         self.poison(Error::NoValue { what: "this body", used, help })
     }
 
+    /// An `if` that is to give a value, and has one branch only.
+    pub(super) fn no_else(&mut self, used: Span) -> Value<'a> {
+        let help = "give it an `else { .. }`";
+        self.poison(Error::NoValue { what: "an `if` without `else`", used, help })
+    }
+
     fn body_entry(&mut self, entry: &'a Entry, env: &Env<'a>) -> (Value<'a>, Span) {
         match entry {
             Entry::Field(field) => {
@@ -287,14 +293,9 @@ impl<'a> Resolver<'a> {
             ItemKind::Value(expr) => self.eval(expr, env),
             ItemKind::Object(object) => self.object(object, env),
             ItemKind::Place(place) => self.placed(place, item.span, env).map_or(Value::Poison, Value::Object),
-            ItemKind::If { condition, then, otherwise } => match self.eval_as(condition, Type::Bool, env) {
-                Value::Bool(true) => self.body(then, env),
-                Value::Bool(false) => match otherwise {
-                    Some(otherwise) => self.body(otherwise, env),
-                    None => self.no_value(item.span),
-                },
-                _ => Value::Poison,
-            },
+            ItemKind::If { condition, then, otherwise } => {
+                self.choice(condition, then, otherwise.as_ref(), item.span, env)
+            }
             ItemKind::For { .. } => {
                 let help = "wrap it: `group { for .. }`";
                 self.misplaced_item("a loop", "where one value is wanted", item.span, help);

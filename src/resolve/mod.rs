@@ -11,6 +11,7 @@ mod coerce;
 mod color;
 mod constructor;
 mod dimension;
+mod doubt;
 mod error;
 mod expr;
 mod fields;
@@ -21,6 +22,7 @@ mod noise;
 mod operator;
 mod param;
 mod scope;
+mod survey;
 #[cfg(test)]
 mod tests;
 mod value;
@@ -36,6 +38,7 @@ use miette::Diagnostic;
 use rustc_hash::FxHashSet;
 use scope::{Definition, Kind, Scope, State};
 use std::rc::Rc;
+pub use survey::{Offer, Offered, survey};
 use value::Value;
 
 /// A value that the command line gives to a parameter: `--set f_stop=8`.
@@ -61,13 +64,14 @@ pub fn resolve(
     }
     // What seems unused may be used where the text could not be read.
     let readable = !problems.has_errors();
-    let unused = lint::lint(program, problems);
+    let findings = lint::lint(program, problems);
     let mut resolver = Resolver::new(program, sources, problems);
     resolver.set_parameters(settings);
     resolver.run_file(FileIndex(0));
     resolver.evaluate_the_rest();
+    resolver.report_doubts(findings.doubts);
     if readable {
-        resolver.report_unused(unused);
+        resolver.report_unused(findings.unused);
     }
     resolver.scene
 }
@@ -95,6 +99,8 @@ struct Resolver<'a> {
     calls: Vec<Span>,
     /// The functions that were called at least once.
     called: FxHashSet<Span>,
+    /// The parts that may be left out and were not, by the offsets at which they begin.
+    entered: FxHashSet<u32>,
     /// Reports that were made, by code and place: a loop repeats none.
     reported: FxHashSet<(String, usize)>,
     /// What the command line says, by parameter.
@@ -143,6 +149,7 @@ impl<'a> Resolver<'a> {
             running: Vec::new(),
             calls: Vec::new(),
             called: FxHashSet::default(),
+            entered: FxHashSet::default(),
             reported: FxHashSet::default(),
             settings: Vec::new(),
             proposed: FxHashSet::default(),
@@ -175,6 +182,20 @@ impl<'a> Resolver<'a> {
         let near = crate::diag::nearest(wanted, names);
         self.proposed.extend(near.iter().map(|&name| name.to_owned()));
         crate::diag::did_you_mean(wanted, near)
+    }
+
+    /// Notes that evaluation has come to a part that it may leave out.
+    fn enter(&mut self, part: Span) {
+        self.entered.insert(part.start);
+    }
+
+    /// Reports what is unknown in parts to which evaluation did not come.
+    fn report_doubts(&mut self, doubts: Vec<doubt::Doubt>) {
+        for doubt in doubts {
+            if !self.entered.contains(&doubt.region) {
+                self.report(doubt.error);
+            }
+        }
     }
 
     /// Warns of definitions that nothing uses, unless a misspelt name may have meant them.

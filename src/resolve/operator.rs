@@ -33,6 +33,9 @@ impl<'a> Resolver<'a> {
             (BinaryOp::And, Value::Bool(false)) => Value::Bool(false),
             (BinaryOp::Or, Value::Bool(true)) => Value::Bool(true),
             _ => {
+                if matches!(op, BinaryOp::And | BinaryOp::Or) {
+                    self.enter(right.span);
+                }
                 let right = Spanned::new(self.eval(right, env), right.span);
                 self.join(op, left, right)
             }
@@ -51,6 +54,12 @@ impl<'a> Resolver<'a> {
             (Or, Value::Stop(a), Value::Stop(b)) => Value::Stop(either(*a, *b)),
             (Equal | NotEqual, Value::Bool(a), Value::Bool(b)) => Value::Bool((a == b) == (op == Equal)),
             (Equal | NotEqual, Value::Text(a), Value::Text(b)) => Value::Bool((a == b) == (op == Equal)),
+            (Equal | NotEqual, Value::Color(a), Value::Color(b)) => Value::Bool((a == b) == (op == Equal)),
+            (Equal | NotEqual, Value::Tuple(a), Value::Tuple(b))
+                if left.value.noun() == right.value.noun() =>
+            {
+                Value::Bool(numbers_of(a).eq(numbers_of(b)) == (op == Equal))
+            }
             (Then, Value::Transform(a), Value::Transform(b)) => {
                 Value::Transform(a.iter().chain(&**b).copied().collect())
             }
@@ -146,26 +155,18 @@ impl<'a> Resolver<'a> {
             let (a, b) = (Spanned::new(Value::Number(a), left), Spanned::new(Value::Number(b), right));
             return self.incompatible(op, &a, &b, help);
         };
-        self.finite(value, dimension, left.to(right), (y == 0.0).then_some(right))
-    }
-
-    /// A computed number, unless it is none.
-    pub(super) fn finite(
-        &mut self,
-        value: f64,
-        dimension: Dimension,
-        used: Span,
-        zero: Option<Span>,
-    ) -> Value<'a> {
         if value.is_finite() {
             return Value::Number(Quantity::new(value, dimension));
         }
-        let (why, help) = match zero {
-            Some(_) => ("a division by 0", "divide by something else than 0"),
-            None if value.is_nan() => ("it is not defined there", "see what the numbers in it may be"),
-            None => ("it is too large", "see what the numbers in it may be"),
+        let text = format!("`{} {} {}`", a.write(), sign(op), b.write());
+        let (why, help) = match op {
+            Divide | Remainder if y == 0.0 => {
+                (format!("{text} divides by 0"), "divide by something else than 0")
+            }
+            _ if value.is_nan() || (x == 0.0 && y < 0.0) => (format!("{text} is not defined"), SEE),
+            _ => (format!("{text} is too large"), SEE),
         };
-        self.poison(Error::NotFinite { why, used: zero.unwrap_or(used), help })
+        self.poison(Error::NotFinite { why, used: left.to(right), help: help.to_owned() })
     }
 
     fn incompatible(
@@ -183,6 +184,18 @@ impl<'a> Resolver<'a> {
             (Value::Stop(_), Value::Stop(_)) => {
                 Some(format!("what comes first ends the picture: write `{a} or {b}`"))
             }
+            (Value::Bool(_), Value::Number(_)) if is_comparison(op) => {
+                Some("compare two at a time: `a < b and b < c`".to_owned())
+            }
+            (Value::Color(_), Value::Number(_)) if op == BinaryOp::Divide => {
+                Some("divide by a plain number other than 0".to_owned())
+            }
+            (Value::Number(_), Value::Number(_)) if op == BinaryOp::Power => {
+                Some(match right.value.is_plain() {
+                    true => format!("take its unit away first, as in `({a} / 1m) ^ {b}`"),
+                    false => "the exponent is a plain number".to_owned(),
+                })
+            }
             _ => help.or(joins_alike.then(|| "both sides have to be of the same kind".to_owned())),
         };
         self.poison(Error::Incompatible {
@@ -194,6 +207,21 @@ impl<'a> Resolver<'a> {
             help,
         })
     }
+}
+
+/// What can be done about a number that is none.
+const SEE: &str = "see what the numbers in it may be";
+
+fn is_comparison(op: BinaryOp) -> bool {
+    matches!(sign(op), "<" | "<=" | ">" | ">=" | "==" | "!=")
+}
+
+/// The components of a tuple.
+fn numbers_of(parts: &[Value]) -> impl Iterator<Item = Option<f64>> {
+    parts.iter().map(|part| match part {
+        Value::Number(quantity) => Some(quantity.value),
+        _ => None,
+    })
 }
 
 /// What to write when a plain number meets a quantity.

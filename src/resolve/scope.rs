@@ -57,6 +57,11 @@ impl<'a> Scope<'a> {
         Rc::new(Self { parent, definitions: RefCell::default() })
     }
 
+    /// Whether it is the top level of a file.
+    pub const fn is_root(&self) -> bool {
+        self.parent.is_none()
+    }
+
     /// The innermost definition of a name, and the scope that holds it.
     pub fn find(self: &Rc<Self>, name: &str) -> Option<(Rc<Self>, Rc<Definition<'a>>)> {
         let mut scope = self;

@@ -61,6 +61,11 @@ impl Value<'_> {
         Self::Number(Quantity::plain(value))
     }
 
+    /// Whether it is a number without a unit.
+    pub fn is_plain(&self) -> bool {
+        matches!(self, Self::Number(quantity) if quantity.dimension == Dimension::NONE)
+    }
+
     pub const fn is_poison(&self) -> bool {
         matches!(self, Self::Poison)
     }

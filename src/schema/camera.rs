@@ -1,6 +1,6 @@
 //! The camera, its lens and its film.
 
-use super::{Area, Block, Field, Range, Type, field};
+use super::{Area, Block, Field, Range, Type, at_most_one_of, field, one_of};
 
 /// Full angles of view; `check` looks at them.
 const VIEW: Range = Range::open(0.0, std::f64::consts::PI).physical();
@@ -17,7 +17,7 @@ const CAMERA: &[Field] = &[
         .like("45deg"),
     field("fov_x", Type::Angle, "From its left to its right, instead of `fov`.").within(VIEW).like("60deg"),
     field("lens", Type::Lens, "How light gets in.").or_word("pinhole"),
-    field("film", Type::Block("film"), "What it falls on."),
+    field("film", Type::Block("film"), "What it falls on.").like("{ size: 1024 x 768, tone: agx }"),
 ];
 
 const PINHOLE: &[Field] =
@@ -29,8 +29,10 @@ const THIN: &[Field] = &[
     field("focal_length", Type::Length, "Gives the field of view, with the film's sensor.")
         .within(SIZE)
         .like("50mm"),
-    field("aperture", Type::FNumber, "The focal length by the width of the opening.").within(SIZE),
-    field("radius", Type::Length, "Of the opening, instead of `focal_length` and `aperture`.")
+    field("aperture", Type::FNumber, "The focal length by the width of the opening.")
+        .within(SIZE)
+        .beside("focal_length"),
+    field("radius", Type::Length, "Of the opening, instead of `aperture`.")
         .within(Range::at_least(0.0).physical())
         .like("5mm"),
     field("focus", Type::Focus, "What is sharp; without it, what `look_at` names."),
@@ -48,7 +50,7 @@ const FILM: &[Field] = &[
 ];
 
 const fn part(kind: &'static str, own: &'static [Field], doc: &'static str, example: &'static str) -> Block {
-    Block { kind, area: Area::Camera, doc, example, own }
+    Block { kind, area: Area::Camera, doc, example, own, choices: &[] }
 }
 
 pub(super) const BLOCKS: &[Block] = &[
@@ -58,6 +60,7 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "Takes the picture.",
         example: "camera { position: (0m, 1.6m, 4m), look_at: (0m, 0m, 0m), fov: 45deg }",
         own: CAMERA,
+        choices: &[one_of(&[&["look_at"], &["direction"]]), at_most_one_of(&[&["fov"], &["fov_x"]])],
     },
     part("pinhole", PINHOLE, "A lens that keeps everything sharp.", "pinhole { focal_length: 50mm }"),
     part(
@@ -65,6 +68,7 @@ pub(super) const BLOCKS: &[Block] = &[
         THIN,
         "A lens that is sharp at one distance.",
         "thin { focal_length: 50mm, aperture: f/2.8, focus: 2m, blades: 7 }",
-    ),
+    )
+    .choosing(&[one_of(&[&["aperture"], &["radius"]])]),
     part("film", FILM, "What light falls on.", "film: { size: 1024 x 768, tone: agx }"),
 ];

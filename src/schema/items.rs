@@ -20,6 +20,7 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "What bare numbers mean in this file.",
         example: "units { length: cm }",
         own: UNITS,
+        choices: &[],
     },
     Block {
         kind: "place",
@@ -27,5 +28,6 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "Puts an object into the scene once more, sharing its memory.",
         example: "place goblet { transform: translate(1m, 0m, 0m) }",
         own: PLACE,
+        choices: &[],
     },
 ];

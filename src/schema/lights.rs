@@ -1,6 +1,6 @@
 //! What shines. `power` is luminance-weighted: 1 W is 683 lm.
 
-use super::{Area, Block, Field, Range, Type, field};
+use super::{Area, Block, Choice, Field, Range, Type, field, one_of};
 
 const COLOR: Field = field("color", Type::LightColor, "The colour of the light.").or(1.0);
 const POWER: Field =
@@ -57,8 +57,11 @@ const ENVIRONMENT: &[Field] = &[
     field("rotation", Type::Angle, "Turn about the y axis.").or(0.0),
 ];
 
+/// How a light with a surface says how bright it is.
+const BRIGHTNESS: &[Choice] = &[one_of(&[&["power"], &["radiance"]])];
+
 const fn light(kind: &'static str, own: &'static [Field], doc: &'static str, example: &'static str) -> Block {
-    Block { kind, area: Area::Light, doc, example, own }
+    Block { kind, area: Area::Light, doc, example, own, choices: &[] }
 }
 
 pub(super) const BLOCKS: &[Block] = &[
@@ -67,19 +70,22 @@ pub(super) const BLOCKS: &[Block] = &[
         POINT,
         "Shines from a point, all around.",
         "light point { position: (0m, 3m, 0m), power: 60W }",
-    ),
+    )
+    .choosing(&[one_of(&[&["power"], &["intensity"]])]),
     light(
         "light sphere",
         SPHERE,
         "A glowing ball.",
         "light sphere { center: (0m, 3m, 0m), radius: 5cm, power: 60W, color: 3200K }",
-    ),
+    )
+    .choosing(BRIGHTNESS),
     light(
         "light rect",
         RECT,
         "A glowing parallelogram.",
         "light rect { origin: (0m, 3m, 0m), edge_u: (1m, 0m, 0m), edge_v: (0m, 0m, 1m), power: 60W }",
-    ),
+    )
+    .choosing(BRIGHTNESS),
     light(
         "light directional",
         DIRECTIONAL,

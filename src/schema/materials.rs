@@ -1,6 +1,6 @@
 //! What objects are made of.
 
-use super::{Area, Block, Field, Range, Type, field};
+use super::{Area, Block, Field, Range, Type, at_most_one_of, field, one_of};
 
 /// Metals whose reflectance is known by name.
 pub(super) const METALS: Type = Type::Choice(&["silver", "gold", "copper", "aluminium", "iron", "chromium"]);
@@ -60,7 +60,7 @@ const WHITTED: &[Field] = &[
 ];
 
 const MIX: &[Field] = &[
-    field("a", Type::Material, "The material where `amount` is 0.").required().like("gold"),
+    field("a", Type::Material, "The material where `amount` is 0.").required().like("metal { kind: gold }"),
     field("b", Type::Material, "The material where it is 1.").required().like("glass { ior: 1.5 }"),
     field("amount", Type::NumberInput, "The share of `b`.").or(0.5).within(SHARE),
 ];
@@ -71,7 +71,7 @@ const fn material(
     doc: &'static str,
     example: &'static str,
 ) -> Block {
-    Block { kind, area: Area::Material, doc, example, own }
+    Block { kind, area: Area::Material, doc, example, own, choices: &[] }
 }
 
 pub(super) const BLOCKS: &[Block] = &[
@@ -83,7 +83,8 @@ pub(super) const BLOCKS: &[Block] = &[
         "phong { diffuse: #663311, specular: 0.2, shininess: 40 }",
     ),
     material("mirror", MIRROR, "A perfect mirror.", "mirror { color: 0.9 }"),
-    material("metal", METAL, "A rough conductor: `kind` or `color`.", "metal { kind: gold, roughness: 0.2 }"),
+    material("metal", METAL, "A rough conductor: `kind` or `color`.", "metal { kind: gold, roughness: 0.2 }")
+        .choosing(&[one_of(&[&["kind"], &["color"]])]),
     material(
         "glass",
         GLASS,
@@ -95,12 +96,18 @@ pub(super) const BLOCKS: &[Block] = &[
         EMISSIVE,
         "Shines to the side of the normal, outwards from a closed shape.",
         "emissive { power: 60W, color: 3200K }",
-    ),
+    )
+    .choosing(&[at_most_one_of(&[&["radiance"], &["power"]])]),
     material(
         "whitted",
         WHITTED,
         "The sum of the terms of recursive ray tracing (Whitted 1980), for `method: classic` alone.",
         "whitted { diffuse: #663311, specular: 0.3, shininess: 20, reflection: 0.2 }",
     ),
-    material("mix", MIX, "Two materials by shares.", "mix { a: gold, b: glass { ior: 1.5 }, amount: 0.3 }"),
+    material(
+        "mix",
+        MIX,
+        "Two materials by shares.",
+        "mix { a: metal { kind: gold }, b: glass { ior: 1.5 }, amount: 0.3 }",
+    ),
 ];

@@ -1,11 +1,15 @@
-//! The registry: every block of the language and every field in it, declared once.
+//! The registry: every block, field, function, unit, type and word of the language, declared once.
 //!
-//! Whoever needs to know what may stand between which braces asks here: `resolve` to read blocks and to say what is
-//! wrong with them, `check` for the ranges that physics sets, and whatever prints a reference of the language. The
-//! tables are data; adding a field is adding a line.
+//! Whoever needs to know what may stand where asks here: `resolve` to read blocks and calls and to say what is wrong
+//! with them, `check` for the ranges that physics sets, `reference` to print all of it. The tables are data; adding a
+//! field is adding a line.
 
 mod camera;
+mod colors;
+mod field;
+mod function;
 mod items;
+mod library;
 mod lights;
 mod materials;
 mod range;
@@ -13,9 +17,18 @@ mod render;
 mod shapes;
 mod textures;
 mod types;
+mod units;
+mod words;
 
+pub use colors::COLORS;
+pub use field::{Field, Literal, Need};
+pub use function::{Arg, Function, Takes, Times, Topic};
 pub use range::Range;
-pub use types::{Type, quoted};
+pub use types::{NamedType, Type, quoted};
+pub use units::{UNITS, Unit};
+pub use words::{FORMS, Form, Place};
+
+use field::field;
 
 /// A kind of block: `sphere { .. }`, `light sphere { .. }`.
 #[derive(Debug)]
@@ -30,6 +43,8 @@ pub struct Block {
     pub example: &'static str,
     /// Its own fields; [`Block::fields`] adds those that all objects have.
     own: &'static [Field],
+    /// Which of its fields exclude one another.
+    pub choices: &'static [Choice],
 }
 
 /// The parts of the language.
@@ -46,6 +61,23 @@ pub enum Area {
 }
 
 impl Area {
+    /// All of them, in the order of the reference.
+    pub const ALL: [Self; 7] =
+        [Self::Item, Self::Camera, Self::Light, Self::Shape, Self::Material, Self::Texture, Self::Render];
+
+    /// What stands above its blocks.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Item => "items",
+            Self::Shape => "objects",
+            Self::Material => "materials",
+            Self::Texture => "textures and projections",
+            Self::Light => "lights",
+            Self::Camera => "lenses and film",
+            Self::Render => "settings of the renderer",
+        }
+    }
+
     /// How a report calls a block of this area.
     pub const fn noun(self) -> &'static str {
         match self {
@@ -60,105 +92,30 @@ impl Area {
     }
 }
 
-/// A field of a block.
-#[derive(Clone, Copy, Debug)]
-pub struct Field {
-    /// The word before the colon.
-    pub name: &'static str,
-    /// What may stand after it.
-    pub ty: Type,
-    /// What happens without it.
-    pub need: Need,
-    /// Which values make sense, in SI units.
-    pub range: Option<Range>,
-    /// What it is, in one sentence.
-    pub doc: &'static str,
-    /// A value that could stand there, where the type's own example would mislead.
-    sample: Option<&'static str>,
+/// Fields that say the same thing in different ways, of which one is taken.
+#[derive(Debug)]
+pub struct Choice {
+    /// The ways, each the fields that make it up; those with a default may be left out of it.
+    pub ways: &'static [&'static [&'static str]],
+    /// Whether one of them has to be taken.
+    pub required: bool,
 }
 
-/// What happens when a field is left out.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Need {
-    /// That is a mistake.
-    Required,
-    /// Nothing stands in for it, or the block's documentation says what does.
-    Optional,
-    /// This stands in for it.
-    Default(Literal),
+/// One of these ways has to be taken.
+const fn one_of(ways: &'static [&'static [&'static str]]) -> Choice {
+    Choice { ways, required: true }
 }
 
-/// A default, in SI units.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[expect(missing_docs, reason = "each is its type")]
-pub enum Literal {
-    Number(f64),
-    Word(&'static str),
-    Bool(bool),
-    Triple([f64; 3]),
-    Pair([u32; 2]),
-}
-
-/// A field that may be left out, with nothing in its place.
-const fn field(name: &'static str, ty: Type, doc: &'static str) -> Field {
-    Field { name, ty, need: Need::Optional, range: None, doc, sample: None }
-}
-
-impl Field {
-    const fn required(self) -> Self {
-        Self { need: Need::Required, ..self }
-    }
-
-    /// A default number, in SI units.
-    const fn or(self, value: f64) -> Self {
-        Self { need: Need::Default(Literal::Number(value)), ..self }
-    }
-
-    const fn or_word(self, word: &'static str) -> Self {
-        Self { need: Need::Default(Literal::Word(word)), ..self }
-    }
-
-    const fn or_bool(self, value: bool) -> Self {
-        Self { need: Need::Default(Literal::Bool(value)), ..self }
-    }
-
-    const fn or_triple(self, x: f64, y: f64, z: f64) -> Self {
-        Self { need: Need::Default(Literal::Triple([x, y, z])), ..self }
-    }
-
-    const fn or_size(self, width: u32, height: u32) -> Self {
-        Self { need: Need::Default(Literal::Pair([width, height])), ..self }
-    }
-
-    const fn within(self, range: Range) -> Self {
-        Self { range: Some(range), ..self }
-    }
-
-    const fn like(self, sample: &'static str) -> Self {
-        Self { sample: Some(sample), ..self }
-    }
-
-    /// A value that could stand there: `30cm`.
-    pub fn example(&self) -> &'static str {
-        self.sample.unwrap_or_else(|| self.ty.example())
-    }
-
-    /// The default as it would be written.
-    pub fn default_text(&self) -> Option<String> {
-        let Need::Default(literal) = self.need else { return None };
-        Some(match literal {
-            Literal::Number(value) => self.ty.write(value),
-            Literal::Word(word) => word.to_owned(),
-            Literal::Bool(value) => value.to_string(),
-            Literal::Triple([x, y, z]) => {
-                format!("({}, {}, {})", self.ty.write(x), self.ty.write(y), self.ty.write(z))
-            }
-            Literal::Pair([width, height]) => format!("{width} x {height}"),
-        })
-    }
+/// At most one of these ways is taken.
+const fn at_most_one_of(ways: &'static [&'static [&'static str]]) -> Choice {
+    Choice { ways, required: false }
 }
 
 impl Block {
+    const fn choosing(self, choices: &'static [Choice]) -> Self {
+        Self { choices, ..self }
+    }
+
     /// Its fields in the order of the reference, with those that every object has.
     pub fn fields(&self) -> impl Iterator<Item = &'static Field> + use<> {
         let common: &[Field] = if self.is_object() { shapes::COMMON } else { &[] };
@@ -209,6 +166,16 @@ pub fn blocks() -> impl Iterator<Item = &'static Block> {
 /// The block of this kind; the kind of a light has both its words.
 pub fn block(kind: &str) -> Option<&'static Block> {
     blocks().find(|block| block.kind == kind)
+}
+
+/// Every function of the language, topic by topic.
+pub fn functions() -> impl Iterator<Item = &'static Function> + Clone {
+    library::FUNCTIONS.iter()
+}
+
+/// The unit of this name.
+pub fn unit(name: &str) -> Option<&'static Unit> {
+    UNITS.iter().find(|unit| unit.name == name)
 }
 
 /// What other renderers, or other spellings of English, call a field of this one.

@@ -18,7 +18,8 @@ const RENDER: &[Field] = &[
         .or(0.0)
         .within(Range::closed(0.0, 9.0e15))
         .like("7"),
-    field("photons", Type::Block("photons"), "For photon mapping; without it, chosen by the compiler."),
+    field("photons", Type::Block("photons"), "For photon mapping; without it, chosen by the compiler.")
+        .like("{ count: 200000, k: 60, radius: 5cm }"),
 ];
 
 const PHOTONS: &[Field] = &[
@@ -57,6 +58,7 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "How the picture is computed; all of it may be left to the compiler.",
         example: "render { method: auto, stop: error(1%) or time(5min) }",
         own: RENDER,
+        choices: &[],
     },
     Block {
         kind: "classic",
@@ -64,6 +66,7 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "Recursive ray tracing, as courses teach it: no light between matt surfaces, no law of energy.",
         example: "method: classic { shading: blinn, ambient: 0.1 }",
         own: CLASSIC,
+        choices: &[],
     },
     Block {
         kind: "photons",
@@ -71,5 +74,6 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "Settings of photon mapping.",
         example: "photons: { count: 200000, k: 60, radius: 5cm }",
         own: PHOTONS,
+        choices: &[],
     },
 ];

@@ -1,6 +1,6 @@
 //! Objects. Each has its own frame; `transform` leads out of it.
 
-use super::{Area, Block, Field, Range, Type, field};
+use super::{Area, Block, Field, Range, Type, field, one_of};
 
 /// What every object takes.
 pub(super) const COMMON: &[Field] = &[
@@ -83,12 +83,13 @@ const EXTRUDE: &[Field] = &[
 ];
 
 const fn shape(kind: &'static str, own: &'static [Field], doc: &'static str, example: &'static str) -> Block {
-    Block { kind, area: Area::Shape, doc, example, own }
+    Block { kind, area: Area::Shape, doc, example, own, choices: &[] }
 }
 
 pub(super) const BLOCKS: &[Block] = &[
     shape("sphere", SPHERE, "A ball.", "sphere { center: (0m, 1m, 0m), radius: 30cm }"),
-    shape("plane", PLANE, "An endless plane: one of `x`, `y`, `z`, or `normal`.", "plane { y: 0m }"),
+    shape("plane", PLANE, "An endless plane: one of `x`, `y`, `z`, or `normal`.", "plane { y: 0m }")
+        .choosing(&[one_of(&[&["y"], &["x"], &["z"], &["normal", "offset"]])]),
     shape(
         "disk",
         DISK,
@@ -106,7 +107,8 @@ pub(super) const BLOCKS: &[Block] = &[
         BOX,
         "A box along the axes: `min` and `max`, or `center` and `size`.",
         "box { center: (0m, 50cm, 0m), size: (1m, 1m, 1m) }",
-    ),
+    )
+    .choosing(&[one_of(&[&["min", "max"], &["center", "size"]])]),
     shape(
         "triangle",
         TRIANGLE,

@@ -1,6 +1,6 @@
 //! What varies over a surface.
 
-use super::{Area, Block, Field, Range, Type, field};
+use super::{Area, Block, Field, Range, Type, at_most_one_of, field};
 
 const IMAGE: &[Field] = &[
     field("file", Type::Text, "A PNG, JPEG, HDR, EXR or PPM file, beside the scene.").required(),
@@ -13,8 +13,8 @@ const IMAGE: &[Field] = &[
         "Whether a missing file is a mistake, or leaves it out.",
     )
     .or_word("error"),
-    field("uv_scale", Type::Pair, "A factor on the texture point.").or_triple(1.0, 1.0, 0.0).like("(2, 2)"),
-    field("uv_offset", Type::Pair, "What is added to it then.").or_triple(0.0, 0.0, 0.0).like("(0.5, 0)"),
+    field("uv_scale", Type::Pair, "A factor on the texture point.").or_pair(1.0, 1.0).like("(2, 2)"),
+    field("uv_offset", Type::Pair, "What is added to it then.").or_pair(0.0, 0.0).like("(0.5, 0)"),
     field("projection", Type::Projection, "Where the texture point comes from.").or_word("uv"),
     field("filter", Type::Choice(&["linear", "nearest"]), "Whether neighbouring pixels are blended.")
         .or_word("linear"),
@@ -42,6 +42,7 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "A picture; `image(\"wood.png\")` is short for one with only a file.",
         example: "image { file: \"wood.png\", wrap: mirror }",
         own: IMAGE,
+        choices: &[],
     },
     Block {
         kind: "checker",
@@ -49,6 +50,7 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "Two colours in turn: `cells` in uv, or `size` in space.",
         example: "checker { a: white, b: black, cells: 8 }",
         own: CHECKER,
+        choices: &[at_most_one_of(&[&["cells"], &["size"]])],
     },
     Block {
         kind: "planar",
@@ -56,5 +58,6 @@ pub(super) const BLOCKS: &[Block] = &[
         doc: "A projection that spans a picture between two vectors, in object space.",
         example: "planar { origin: (0m, 0m, 0m), u: (1m, 0m, 0m), v: (0m, 0m, -1m) }",
         own: PLANAR,
+        choices: &[],
     },
 ];

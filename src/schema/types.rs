@@ -1,5 +1,7 @@
 //! What may stand in a field.
 
+use super::{Area, Block};
+
 /// The type of a field, of a parameter, of a function's argument.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Type {
@@ -89,6 +91,21 @@ pub enum Type {
     Block(&'static str),
 }
 
+/// A type that has a name.
+#[derive(Debug)]
+pub struct NamedType {
+    /// Its name.
+    pub name: &'static str,
+    /// The type.
+    pub ty: Type,
+    /// What it is.
+    pub doc: &'static str,
+}
+
+const fn named(name: &'static str, ty: Type, doc: &'static str) -> NamedType {
+    NamedType { name, ty, doc }
+}
+
 impl Type {
     /// The integrators.
     pub const METHODS: &'static [&'static str] = &["auto", "pt", "ppm", "classic"];
@@ -96,33 +113,37 @@ impl Type {
     pub const FALLOFFS: &'static [&'static str] = &["physical", "none"];
 
     /// The types that a `param` or a function may name.
-    pub const NAMED: &'static [(&'static str, Self)] = &[
-        ("int", Self::Int),
-        ("number", Self::Number),
-        ("ratio", Self::Number),
-        ("length", Self::Length),
-        ("angle", Self::Angle),
-        ("time", Self::Time),
-        ("power", Self::Power),
-        ("temperature", Self::Temperature),
-        ("exposure", Self::Exposure),
-        ("f_number", Self::FNumber),
-        ("bool", Self::Bool),
-        ("string", Self::Text),
-        ("point", Self::Point),
-        ("vector", Self::Vector),
-        ("color", Self::Color),
-        ("material", Self::Material),
-        ("texture", Self::Texture),
-        ("object", Self::Object),
-        ("light", Self::Object),
-        ("transform", Self::Transform),
-        ("list", Self::List),
+    pub const NAMED: &'static [NamedType] = &[
+        named("int", Self::Int, "A whole number."),
+        named("number", Self::Number, "A plain number, or a percentage."),
+        named("ratio", Self::Number, "Another word for `number`."),
+        named(
+            "length",
+            Self::Length,
+            "A number with a unit of length; a bare one counts as the file's `units` say.",
+        ),
+        named("angle", Self::Angle, "A number with a unit of angle."),
+        named("time", Self::Time, "A number with a unit of time."),
+        named("power", Self::Power, "A number of watts or lumens."),
+        named("temperature", Self::Temperature, "A number of kelvin."),
+        named("exposure", Self::Exposure, "Steps of exposure, or `auto`."),
+        named("f_number", Self::FNumber, "The focal length by the width of the opening."),
+        named("bool", Self::Bool, "`true` or `false`."),
+        named("string", Self::Text, "A text in quotes."),
+        named("point", Self::Point, "Three lengths: a place."),
+        named("vector", Self::Vector, "Three plain numbers: a direction."),
+        named("color", Self::Color, "A colour; a plain number is a grey."),
+        named("material", Self::Material, "What an object is made of."),
+        named("texture", Self::Texture, "What varies over a surface."),
+        named("object", Self::Object, "A shape, a group, or a light."),
+        named("light", Self::Object, "Another word for `object`."),
+        named("transform", Self::Transform, "A way to move, turn and stretch."),
+        named("list", Self::List, "Values in brackets."),
     ];
 
     /// The type that a `param` or a function calls by this name.
     pub fn named(name: &str) -> Option<Self> {
-        Self::NAMED.iter().find(|(known, _)| *known == name).map(|&(_, ty)| ty)
+        Self::NAMED.iter().find(|known| known.name == name).map(|known| known.ty)
     }
 
     /// The words that it takes, if those are all that it takes for a word.
@@ -233,6 +254,30 @@ impl Type {
             Self::Falloff => "(1, 0, 0.2)",
             Self::Choice(words) => words[0],
             Self::Block(_) => "{ .. }",
+        }
+    }
+
+    /// Whether a block of this kind is a value of this type.
+    pub fn takes(self, block: &Block) -> bool {
+        match self {
+            Self::Block(kind) => kind == block.kind,
+            Self::Lens => block.area == Area::Camera && block.kind != "film",
+            Self::Projection => block.kind == "planar",
+            Self::Texture | Self::ColorInput | Self::NumberInput => {
+                block.area == Area::Texture && block.kind != "planar"
+            }
+            Self::SkyInput => block.kind == "image",
+            Self::Material => block.area == Area::Material,
+            Self::Object => matches!(block.area, Area::Shape | Area::Light) && block.kind != "environment",
+            _ => false,
+        }
+    }
+
+    /// The unit in which a number of this type is usually written.
+    pub const fn usual_unit(self) -> &'static str {
+        match self {
+            Self::Angle => "deg",
+            _ => self.unit(),
         }
     }
 

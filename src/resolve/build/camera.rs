@@ -30,17 +30,9 @@ impl<'a> Resolver<'a> {
     }
 
     fn camera_of(&mut self, fields: &Fields<'a>, object: &'a Object) -> Option<Camera> {
-        let direction = match self.either(fields, &["look_at", "direction"]) {
-            Some("direction") => fields.triple("direction"),
-            Some(_) => {
-                let position = fields.triple("position")?.value;
-                fields.triple("look_at").map(|target| target.map(|target| target - position))
-            }
-            None => {
-                self.needs_one(fields, &["look_at", "direction"]);
-                None
-            }
-        };
+        let position = fields.triple("position")?.value;
+        let towards = fields.triple("look_at").map(|target| target.map(|target| target - position));
+        let direction = towards.or_else(|| fields.triple("direction"));
         let mut lens = match fields.value("lens").map(|slot| &slot.value) {
             Some(Value::Lens(lens)) => (**lens).clone(),
             _ => Lens::Pinhole { focal_length: None },
@@ -65,7 +57,7 @@ impl<'a> Resolver<'a> {
 
     fn fov(&mut self, fields: &Fields<'a>, lens: &Lens) -> Option<Spanned<Fov>> {
         let (Lens::Pinhole { focal_length } | Lens::Thin { focal_length, .. }) = lens;
-        let name = self.either(fields, &["fov", "fov_x"]);
+        let name = ["fov", "fov_x"].into_iter().find(|name| fields.has(name));
         match (name, focal_length) {
             (Some(name), Some(length)) => {
                 let (one, other) = (name.to_owned(), "focal_length".to_owned());
@@ -90,7 +82,7 @@ impl<'a> Resolver<'a> {
         }
         Some(Lens::Thin {
             focal_length,
-            radius: self.opening(fields, focal_length)?,
+            radius: opening(fields, focal_length)?,
             focus: match fields.value("focus") {
                 Some(Spanned { value: Value::Focus(focus), span }) => {
                     Some(Spanned::new((**focus).clone(), *span))
@@ -100,25 +92,6 @@ impl<'a> Resolver<'a> {
             blades: fields.count("blades")?,
             rotation: fields.number("rotation")?,
         })
-    }
-
-    /// The radius of the opening: said, or the focal length by twice the f-number.
-    fn opening(&mut self, fields: &Fields<'a>, focal_length: Option<Spanned<f64>>) -> Option<Spanned<f64>> {
-        match self.either(fields, &["radius", "aperture"]) {
-            Some("radius") => fields.number("radius"),
-            Some(_) => {
-                if !fields.has("focal_length") {
-                    self.needs_one(fields, &["focal_length"]);
-                }
-                let f_number = fields.number("aperture")?;
-                let length = focal_length?.value;
-                Some(f_number.map(|n| length / (2.0 * n)))
-            }
-            None => {
-                self.needs_one(fields, &["aperture", "radius"]);
-                None
-            }
-        }
     }
 
     fn film(&mut self, camera: &Fields<'a>) -> Option<Film> {
@@ -135,7 +108,7 @@ impl<'a> Resolver<'a> {
             Some(Spanned { value: Value::Size(width, height), span }) => {
                 Spanned::new((*width, *height), *span)
             }
-            _ => fields.pair("size")?,
+            _ => fields.size("size")?,
         };
         let filter = match fields.value("filter") {
             Some(Spanned { value: Value::Filter(filter), span }) => Spanned::new(*filter, *span),
@@ -153,4 +126,12 @@ impl<'a> Resolver<'a> {
         });
         Some(Film { size, filter, sensor: fields.number("sensor")?, exposure, tone })
     }
+}
+
+/// The radius of the opening: said, or the focal length by twice the f-number.
+fn opening(fields: &Fields, focal_length: Option<Spanned<f64>>) -> Option<Spanned<f64>> {
+    fields.number("radius").or_else(|| {
+        let length = focal_length?.value;
+        Some(fields.number("aperture")?.map(|n| length / (2.0 * n)))
+    })
 }

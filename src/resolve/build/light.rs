@@ -16,27 +16,10 @@ impl<'a> Resolver<'a> {
     /// The light of a block; it may stand in a group and is moved with it.
     pub(super) fn light(&mut self, fields: &Fields<'a>, span: Span) -> Option<Rc<Node>> {
         let kind = light_kind(fields)?;
-        let brightness = self.brightness(fields)?;
+        let brightness = brightness(fields)?;
         let color = fields.color("color")?.value;
         let light = Light { kind, brightness, color, span, trail: Vec::new() };
         self.node(NodeKind::Light(Box::new(light)), Rc::new([]), None, span)
-    }
-
-    fn brightness(&mut self, fields: &Fields<'a>) -> Option<Spanned<Brightness>> {
-        let names: &[&str] = match fields.block.kind {
-            "light directional" => return Some(fields.number("irradiance")?.map(Brightness::Irradiance)),
-            "light point" => &["power", "intensity"],
-            _ => &["power", "radiance"],
-        };
-        match self.either(fields, names) {
-            Some("power") => Some(fields.number("power")?.map(Brightness::Power)),
-            Some("intensity") => Some(fields.color("intensity")?.map(Brightness::Intensity)),
-            Some(_) => Some(fields.color("radiance")?.map(Brightness::Radiance)),
-            None => {
-                self.needs_one(fields, names);
-                None
-            }
-        }
     }
 
     /// `environment { .. }`: one in a scene.
@@ -91,4 +74,13 @@ fn falloff(fields: &Fields) -> Spanned<[f64; 3]> {
         }
         None => Spanned::new(LightKind::PHYSICAL, fields.head),
     }
+}
+
+fn brightness(fields: &Fields) -> Option<Spanned<Brightness>> {
+    if let Some(irradiance) = fields.number("irradiance") {
+        return Some(irradiance.map(Brightness::Irradiance));
+    }
+    let power = fields.number("power").map(|power| power.map(Brightness::Power));
+    let intensity = fields.color("intensity").map(|color| color.map(Brightness::Intensity));
+    power.or(intensity).or_else(|| Some(fields.color("radiance")?.map(Brightness::Radiance)))
 }

@@ -36,17 +36,16 @@ impl<'a> Resolver<'a> {
                 shininess: fields.number("shininess")?,
             },
             "mirror" => MaterialKind::Mirror { color: fields.input("color")? },
-            "metal" => MaterialKind::Metal {
-                color: self.metal_color(fields)?,
-                roughness: fields.input("roughness")?,
-            },
+            "metal" => {
+                MaterialKind::Metal { color: metal_color(fields)?, roughness: fields.input("roughness")? }
+            }
             "glass" => MaterialKind::Glass {
                 ior: fields.number("ior")?,
                 tint: fields.color("tint")?,
                 absorption: self.absorption(fields),
             },
             "emissive" => {
-                let brightness = self.glow_of(fields);
+                let brightness = glow_of(fields);
                 MaterialKind::Emissive { brightness, color: fields.color("color")?.value }
             }
             "whitted" => MaterialKind::Whitted {
@@ -64,21 +63,6 @@ impl<'a> Resolver<'a> {
                 amount: fields.input("amount")?,
             },
         })
-    }
-
-    fn metal_color(&mut self, fields: &Fields<'a>) -> Option<MetalColor> {
-        let Some(name) = self.either(fields, &["kind", "color"]) else {
-            self.needs_one(fields, &["kind", "color"]);
-            return None;
-        };
-        if name == "color" {
-            return Some(MetalColor::Color(
-                fields.input("color").unwrap_or(Input::Constant(grey(fields.head))),
-            ));
-        }
-        let word = fields.word("kind")?;
-        let (name, color) = METALS.iter().find(|(name, _)| *name == word.value)?;
-        Some(MetalColor::Named(Spanned::new((*name).to_owned(), word.span), *color))
     }
 
     /// The coefficient with which `exp(−a·x)` is what is left after x metres (Beer–Lambert).
@@ -101,14 +85,6 @@ impl<'a> Resolver<'a> {
         self.report(Error::OutOfRange { field, range, found, used: *span, said: None, help });
         Rgb::BLACK
     }
-
-    fn glow_of(&mut self, fields: &Fields<'a>) -> Spanned<Brightness> {
-        let brightness = match self.either(fields, &["radiance", "power"]) {
-            Some("power") => fields.number("power").map(|power| power.map(Brightness::Power)),
-            _ => fields.color("radiance").map(|radiance| radiance.map(Brightness::Radiance)),
-        };
-        brightness.unwrap_or(Spanned::new(Brightness::Radiance(Rgb::WHITE), fields.head))
-    }
 }
 
 fn material_of(fields: &Fields, name: &str) -> Option<Handle<Material>> {
@@ -118,6 +94,18 @@ fn material_of(fields: &Fields, name: &str) -> Option<Handle<Material>> {
     }
 }
 
-fn grey(span: Span) -> Spanned<Rgb> {
-    Spanned::new(Rgb::gray(0.5), span)
+fn metal_color(fields: &Fields) -> Option<MetalColor> {
+    if fields.has("color") && !fields.has("kind") {
+        let grey = || Input::Constant(Spanned::new(Rgb::gray(0.5), fields.head));
+        return Some(MetalColor::Color(fields.input("color").unwrap_or_else(grey)));
+    }
+    let word = fields.word("kind")?;
+    let (name, color) = METALS.iter().find(|(name, _)| *name == word.value)?;
+    Some(MetalColor::Named(Spanned::new((*name).to_owned(), word.span), *color))
+}
+
+fn glow_of(fields: &Fields) -> Spanned<Brightness> {
+    let power = fields.number("power").map(|power| power.map(Brightness::Power));
+    let radiance = fields.color("radiance").map(|radiance| radiance.map(Brightness::Radiance));
+    radiance.or(power).unwrap_or(Spanned::new(Brightness::Radiance(Rgb::WHITE), fields.head))
 }

@@ -8,7 +8,6 @@ mod shape;
 mod texture;
 
 use super::error::Error;
-use super::fields::Fields;
 use super::{Env, Resolver, Value};
 use crate::diag::did_you_mean;
 use crate::schema::{self, Area};
@@ -49,11 +48,7 @@ const LATER: &[(&str, &str)] = &[
 impl<'a> Resolver<'a> {
     /// A block with its head, as a value.
     pub(super) fn object(&mut self, object: &'a Object, env: &Env<'a>) -> Value<'a> {
-        let head = object.second.as_ref().map_or(object.kind.span, |second| object.kind.span.to(second.span));
-        let kind = match &object.second {
-            Some(second) => format!("{} {}", object.kind.value, second.value),
-            None => object.kind.value.clone(),
-        };
+        let (kind, head) = kind_of(object);
         match schema::block(&kind).filter(|block| block.area != Area::Item && block.area != Area::Render) {
             Some(block) if kind == "environment" => self.misplaced_block(block, head),
             Some(block) => self.block(block, head, &object.body, env),
@@ -90,34 +85,42 @@ impl<'a> Resolver<'a> {
 
     /// A block of no known kind. What its fields hold is looked at all the same.
     fn no_such_block(&mut self, object: &'a Object, kind: &str, used: Span, env: &Env<'a>) -> Value<'a> {
-        let error = if let Some(block) = schema::block(kind) {
+        if let Some(block) = schema::block(kind) {
             return self.misplaced_block(block, used);
-        } else if CSG.contains(&kind) {
-            Error::NoCsg { word: kind.to_owned(), used }
-        } else if let Some((_, instead)) = LATER.iter().find(|(later, _)| *later == kind) {
-            Error::NotYet { word: kind.to_owned(), used, help: (*instead).to_owned() }
-        } else if env.find(&object.kind.value).is_some() {
-            let help = format!("to put it into the picture, write `place {} {{ .. }}`", object.kind.value);
-            Error::UnknownBlock { kind: kind.to_owned(), used, help: Some(help) }
-        } else {
-            let help = unknown_block_help(kind).or_else(|| {
-                let visible = env.visible();
-                self.propose(kind, visible.iter().map(|definition| definition.name))
-            });
+        }
+        let is_defined = env.find(&object.kind.value).is_some();
+        let error = block_error(kind, used, is_defined).unwrap_or_else(|| {
+            let visible = env.visible();
+            let help = self.propose(kind, visible.iter().map(|definition| definition.name));
             Error::UnknownBlock { kind: kind.to_owned(), used, help }
-        };
+        });
         self.poison(error)
     }
+}
 
-    /// The first of two fields that excludes the other; both is a mistake, reported here.
-    fn either(&mut self, fields: &Fields<'a>, names: &[&'static str]) -> Option<&'static str> {
-        let mut given = names.iter().copied().filter(|name| fields.has(name));
-        let first = given.next()?;
-        if let Some(second) = given.next() {
-            self.conflict(fields, first, second);
-        }
-        Some(first)
+/// The words before the brace, and where they stand.
+pub fn kind_of(object: &Object) -> (String, Span) {
+    match &object.second {
+        Some(second) => (format!("{} {}", object.kind.value, second.value), object.kind.span.to(second.span)),
+        None => (object.kind.value.clone(), object.kind.span),
     }
+}
+
+/// What to say of a block of no known kind; `None` where only the names of the scene may help.
+pub fn block_error(kind: &str, used: Span, is_defined: bool) -> Option<Error> {
+    if CSG.contains(&kind) {
+        return Some(Error::NoCsg { word: kind.to_owned(), used });
+    }
+    if let Some((_, instead)) = LATER.iter().find(|(later, _)| *later == kind) {
+        return Some(Error::NotYet { word: kind.to_owned(), used, help: (*instead).to_owned() });
+    }
+    let help = if is_defined {
+        let name = kind.split(' ').next().unwrap_or(kind);
+        format!("to put it into the picture, write `place {name} {{ .. }}`")
+    } else {
+        unknown_block_help(kind)?
+    };
+    Some(Error::UnknownBlock { kind: kind.to_owned(), used, help: Some(help) })
 }
 
 fn unknown_block_help(kind: &str) -> Option<String> {

@@ -38,7 +38,7 @@ impl<'a> Resolver<'a> {
         let point = |name| fields.triple(name).map(|point| point.value);
         Some(match fields.block.kind {
             "sphere" => ShapeKind::Sphere { center: point("center")?, radius: fields.number("radius")? },
-            "plane" => self.plane(fields)?,
+            "plane" => plane(fields)?,
             "disk" => ShapeKind::Disk {
                 center: point("center")?,
                 normal: fields.triple("normal")?,
@@ -49,7 +49,7 @@ impl<'a> Resolver<'a> {
                 edge_u: fields.triple("edge_u")?,
                 edge_v: fields.triple("edge_v")?,
             },
-            "box" => self.box_shape(fields)?,
+            "box" => box_shape(fields)?,
             "triangle" => ShapeKind::Triangle {
                 corners: [fields.triple("a")?, fields.triple("b")?, fields.triple("c")?],
             },
@@ -66,49 +66,6 @@ impl<'a> Resolver<'a> {
                 depth: fields.number("depth")?,
             },
         })
-    }
-
-    fn plane(&mut self, fields: &Fields<'a>) -> Option<ShapeKind> {
-        let Some(name) = self.either(fields, &["y", "x", "z", "normal"]) else {
-            self.needs_one(fields, &["y", "x", "z", "normal"]);
-            return None;
-        };
-        let axis = match name {
-            "x" => DVec3::X,
-            "y" => DVec3::Y,
-            "z" => DVec3::Z,
-            _ => {
-                let offset = fields.number("offset")?.value;
-                return Some(ShapeKind::Plane { normal: fields.triple("normal")?, offset });
-            }
-        };
-        self.conflict(fields, name, "offset");
-        let offset = fields.number(name)?;
-        Some(ShapeKind::Plane { normal: Spanned::new(axis, offset.span), offset: offset.value })
-    }
-
-    fn box_shape(&mut self, fields: &Fields<'a>) -> Option<ShapeKind> {
-        let pair =
-            if fields.has("center") || fields.has("size") { ["center", "size"] } else { ["min", "max"] };
-        for other in ["min", "max"] {
-            if pair[0] == "center" && fields.has(other) {
-                self.either(fields, &["center", "size", other]);
-                return None;
-            }
-        }
-        for name in pair {
-            if !fields.has(name) {
-                self.needs_one(fields, &[name]);
-            }
-        }
-        let (first, second) = (fields.triple(pair[0])?, fields.triple(pair[1])?);
-        let (min, max) = match pair {
-            ["center", _] => (first.value - second.value / 2.0, first.value + second.value / 2.0),
-            _ => (first.value, second.value),
-        };
-        // A box given by its size is blamed on the size.
-        let min_span = if pair[0] == "center" { second.span } else { first.span };
-        Some(ShapeKind::Box { min: Spanned::new(min, min_span), max: Spanned::new(max, second.span) })
     }
 
     fn holes(&mut self, fields: &Fields<'a>) -> Vec<Curve> {
@@ -142,4 +99,24 @@ fn method(fields: &Fields) -> Method {
     } else {
         Method::Exact
     }
+}
+
+fn plane(fields: &Fields) -> Option<ShapeKind> {
+    let axes = [("y", DVec3::Y), ("x", DVec3::X), ("z", DVec3::Z)];
+    for (name, axis) in axes {
+        if let Some(offset) = fields.number(name) {
+            return Some(ShapeKind::Plane { normal: Spanned::new(axis, offset.span), offset: offset.value });
+        }
+    }
+    let offset = fields.number("offset")?.value;
+    Some(ShapeKind::Plane { normal: fields.triple("normal")?, offset })
+}
+
+fn box_shape(fields: &Fields) -> Option<ShapeKind> {
+    if let (Some(center), Some(size)) = (fields.triple("center"), fields.triple("size")) {
+        // A box given by its size is blamed on the size.
+        let corner = |sign: f64| size.map(|size| center.value + size * (sign / 2.0));
+        return Some(ShapeKind::Box { min: corner(-1.0), max: corner(1.0) });
+    }
+    Some(ShapeKind::Box { min: fields.triple("min")?, max: fields.triple("max")? })
 }

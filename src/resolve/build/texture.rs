@@ -11,8 +11,8 @@ impl<'a> Resolver<'a> {
     /// The texture or projection of a block.
     pub(super) fn texture(&mut self, fields: &Fields<'a>, span: Span) -> Option<Value<'a>> {
         let kind = match fields.block.kind {
-            "image" => TextureKind::Image(self.image(fields)?),
-            "checker" => TextureKind::Checker(self.checker(fields)?),
+            "image" => TextureKind::Image(image(fields)?),
+            "checker" => TextureKind::Checker(checker(fields)?),
             _ => return planar(fields).map(Value::Projection),
         };
         Some(Value::Texture(self.scene.textures.push(Texture { kind, span })))
@@ -32,38 +32,36 @@ impl<'a> Resolver<'a> {
         };
         Value::Texture(self.scene.textures.push(Texture { kind: TextureKind::Image(image), span }))
     }
+}
 
-    fn image(&mut self, fields: &Fields<'a>) -> Option<ImageUse> {
-        let wrap = match fields.word("wrap")?.value {
-            "clamp" => Wrap::Clamp,
-            "mirror" => Wrap::Mirror,
-            "border" => Wrap::Border(fields.color("border")?.value),
-            _ => Wrap::Repeat,
-        };
-        Some(ImageUse {
-            file: fields.text("file")?,
-            skip_missing: fields.word("missing")?.value == "skip",
-            wrap,
-            linear_filter: fields.word("filter")?.value == "linear",
-            uv_scale: fields.triple("uv_scale")?.value.truncate(),
-            uv_offset: fields.triple("uv_offset")?.value.truncate(),
-            projection: match fields.value("projection").map(|slot| &slot.value) {
-                Some(Value::Projection(projection)) => *projection,
-                _ => Projection::Uv,
-            },
-        })
-    }
+fn image(fields: &Fields) -> Option<ImageUse> {
+    let wrap = match fields.word("wrap")?.value {
+        "clamp" => Wrap::Clamp,
+        "mirror" => Wrap::Mirror,
+        "border" => Wrap::Border(fields.color("border")?.value),
+        _ => Wrap::Repeat,
+    };
+    Some(ImageUse {
+        file: fields.text("file")?,
+        skip_missing: fields.word("missing")?.value == "skip",
+        wrap,
+        linear_filter: fields.word("filter")?.value == "linear",
+        uv_scale: fields.triple("uv_scale")?.value.truncate(),
+        uv_offset: fields.triple("uv_offset")?.value.truncate(),
+        projection: match fields.value("projection").map(|slot| &slot.value) {
+            Some(Value::Projection(projection)) => *projection,
+            _ => Projection::Uv,
+        },
+    })
+}
 
-    fn checker(&mut self, fields: &Fields<'a>) -> Option<Checker> {
-        let cells = match self.either(fields, &["size", "cells"]) {
-            Some("size") => CheckerCells::Solid(fields.number("size")?.value),
-            Some(_) => {
-                CheckerCells::Uv(fields.triple("cells").map_or(DVec2::splat(8.0), |c| c.value.truncate()))
-            }
-            None => CheckerCells::Uv(DVec2::splat(fields.number("cells")?.value)),
-        };
-        Some(Checker { a: fields.color("a")?, b: fields.color("b")?, cells })
-    }
+fn checker(fields: &Fields) -> Option<Checker> {
+    let cells = match (fields.given("size"), fields.triple("cells")) {
+        (Some(size), _) => CheckerCells::Solid(size.value),
+        (None, Some(cells)) => CheckerCells::Uv(cells.value.truncate()),
+        (None, None) => CheckerCells::Uv(DVec2::splat(fields.number("cells")?.value)),
+    };
+    Some(Checker { a: fields.color("a")?, b: fields.color("b")?, cells })
 }
 
 fn planar(fields: &Fields) -> Option<Projection> {
