@@ -11,6 +11,7 @@ pub mod check;
 pub mod cli;
 pub mod convert;
 pub mod diag;
+pub mod explain;
 pub mod format;
 pub mod ir;
 pub mod load;

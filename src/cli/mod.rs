@@ -5,6 +5,7 @@
 mod args;
 mod check;
 mod convert;
+mod explain;
 mod fmt;
 mod interrupt;
 mod new;
@@ -37,6 +38,8 @@ enum Command {
     Plan(plan::PlanArgs),
     /// Turn an arsenal.txt scene into a .snell scene
     Convert(convert::ConvertArgs),
+    /// Say what a diagnostic code means, and what to do
+    Explain(explain::ExplainArgs),
     /// Start a first scene to edit
     New(new::NewArgs),
 }
@@ -73,6 +76,7 @@ pub fn run() -> ExitCode {
         Command::Fmt(args) => fmt::run(&args),
         Command::Plan(args) => plan::run(&args),
         Command::Convert(args) => convert::run(&args),
+        Command::Explain(args) => explain::run(&args),
         Command::New(args) => new::run(&args),
     };
     exit.into()

@@ -8,6 +8,7 @@ use crate::ir::Camera;
 use crate::source::{Disk, Files, Missing, SourceMap};
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
+use terminal_size::{Height, Width, terminal_size_of};
 
 /// A scene on its way from text to picture, with all that was noted about it.
 pub struct Session {
@@ -134,7 +135,13 @@ fn read(scene: &Path) -> Result<Vec<u8>, String> {
 
 fn style(color: Color) -> Style {
     let terminal = std::io::stderr().is_terminal();
-    let color = match color {
+    let width = if terminal { text_width(terminal_size_of(std::io::stderr())) } else { 100 };
+    Style { color: paints(color, terminal), unicode: speaks_unicode(), width }
+}
+
+/// Whether to use colour in a stream that is a terminal or is none.
+pub fn paints(color: Color, terminal: bool) -> bool {
+    match color {
         Color::Always => true,
         Color::Never => false,
         Color::Auto => {
@@ -142,15 +149,12 @@ fn style(color: Color) -> Style {
                 || std::env::var_os("TERM").is_some_and(|term| term == "dumb");
             terminal && !plain
         }
-    };
-    let width = if terminal { terminal_width() } else { 100 };
-    Style { color, unicode: speaks_unicode(), width }
+    }
 }
 
-/// The terminal's width, between 60 and 120 columns.
-fn terminal_width() -> usize {
-    let columns = terminal_size::terminal_size_of(std::io::stderr()).map(|(width, _)| usize::from(width.0));
-    columns.unwrap_or(100).clamp(60, 120)
+/// The width to wrap text to on a terminal of this size: between 60 and 120 columns.
+pub fn text_width(size: Option<(Width, Height)>) -> usize {
+    size.map_or(100, |(width, _)| usize::from(width.0)).clamp(60, 120)
 }
 
 /// Whether the locale is one of UTF-8; where nothing is said, plain characters are safe.
