@@ -74,9 +74,14 @@ impl Page {
         self.code.split("::").nth(1).unwrap_or_default()
     }
 
+    /// The last word of the code: `unknown_name`.
+    pub fn name(&self) -> &'static str {
+        self.code.rsplit("::").next().unwrap_or(self.code)
+    }
+
     /// The shortest name that means this page and no other: `unknown_name`, or `check::out_of_range`.
     pub fn short_name(&self) -> &'static str {
-        let name = self.code.rsplit("::").next().unwrap_or(self.code);
+        let name = self.name();
         let is_only = pages().iter().filter(|page| page.is_called(name)).count() == 1;
         if is_only { name } else { &self.code["snell::".len()..] }
     }
@@ -104,7 +109,7 @@ impl Page {
     /// The first sentence.
     pub fn summary(&self) -> String {
         let opening = self.opening();
-        let end = opening.match_indices(". ").find(|(at, _)| opening[..*at].matches('`').count() % 2 == 0);
+        let end = opening.match_indices(". ").find(|(at, _)| opening[..*at].matches('`').count().is_multiple_of(2));
         end.map_or(opening.clone(), |(at, _)| opening[..=at].to_owned())
     }
 }

@@ -20,6 +20,11 @@ pub fn pages() -> &'static [Page] {
 }
 
 const PAGES: &[Page] = pages! {
+    allow {
+        idle: Warning,
+        not_a_warning: Error,
+        unknown_code: Error,
+    }
     check {
         camera_looks_nowhere: Error,
         camera_sealed: Warning,

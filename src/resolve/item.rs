@@ -36,8 +36,6 @@ impl<'a> Resolver<'a> {
             } else {
                 self.item(item, env, &mut Sink::Scene);
             }
-            let allows = item.allows.iter().map(|allow| (allow.code.clone(), item.span));
-            self.scene.allows.extend(allows);
         }
         self.unit = outer;
     }
