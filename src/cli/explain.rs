@@ -51,7 +51,7 @@ fn other(asked: &str, look: &Look) -> Exit {
         return Exit::Done;
     }
     let name = asked.rsplit("::").next().unwrap_or(asked).to_ascii_lowercase();
-    let names = pages().iter().map(|page| page.code.rsplit("::").next().unwrap_or(page.code));
+    let names = pages().iter().map(Page::name);
     match diag::did_you_mean(&name, names) {
         Some(near) => fail(format_args!("no code is called `{asked}`: {near}")),
         None => fail(format_args!("no code is called `{asked}`; `snell explain` lists them all")),
@@ -68,8 +68,7 @@ fn list(pages: impl Iterator<Item = &'static Page>, look: &Look) -> String {
             let gap = if out.is_empty() { "" } else { "\n" };
             out.push_str(&format!("{gap}{}\n", look.paint("1", &format!("snell::{phase}"))));
         }
-        let name = page.code.rsplit("::").next().unwrap_or(page.code);
-        out.push_str(&format!("  {}\n", look.paint("36", name)));
+        out.push_str(&format!("  {}\n", look.paint("36", page.name())));
         look.wrap(&page.summary(), "      ", &mut out);
     }
     out

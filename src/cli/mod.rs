@@ -8,6 +8,7 @@ mod convert;
 mod explain;
 mod fmt;
 mod interrupt;
+mod messages;
 mod new;
 mod plan;
 mod progress;

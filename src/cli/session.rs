@@ -1,7 +1,7 @@
 //! What every command on a scene does first: read it, compile it, and say what is wrong.
 
-use super::args::{Color, Deny, MessageArgs, MessageFormat, SceneArgs};
-use super::{note, print};
+use super::args::{Color, Deny, MessageArgs, SceneArgs};
+use super::messages::Messages;
 use crate::check::Checked;
 use crate::diag::{Problems, Report, Style};
 use crate::ir::Camera;
@@ -57,36 +57,23 @@ impl Session {
     }
 
     /// Whether nothing noted so far forbids going on.
-    pub fn is_good(&self) -> bool {
+    pub fn is_good(&mut self) -> bool {
+        self.problems.silence();
         let denied = self.deny == Some(Deny::Warnings) && !self.problems.list().is_empty();
         !self.problems.has_errors() && !denied
     }
 
-    /// Shows everything that was noted, in source order, and forgets it. Reports for programs are a command's result when
-    /// `as_result` is set, and go to standard output then.
-    pub fn report(&mut self, args: &MessageArgs, as_result: bool) {
-        let good = self.is_good();
+    /// Shows everything that was noted, in source order, and forgets it.
+    pub fn report(&mut self, messages: &mut Messages<'_>) {
         let problems = std::mem::take(&mut self.problems);
-        if !(args.quiet && good) {
-            show_all(problems, &self.sources, args, as_result);
-        }
+        messages.show(Report::new(problems, &self.sources), self.deny);
     }
-}
 
-/// Shows problems in the form that was asked for; warnings alone only where something may be said.
-pub fn show(problems: Problems, sources: &SourceMap, args: &MessageArgs) {
-    if !args.quiet || problems.has_errors() {
-        show_all(problems, sources, args, false);
-    }
-}
-
-fn show_all(problems: Problems, sources: &SourceMap, args: &MessageArgs, as_result: bool) {
-    let report = Report::new(problems, sources);
-    match args.message_format {
-        MessageFormat::Human => note(report.render_human(&style(args.color))),
-        MessageFormat::Short => note(report.render_short()),
-        MessageFormat::Json if as_result => print(report.render_json()),
-        MessageFormat::Json => note(report.render_json()),
+    /// [`Session::report`] where the scene is the only one, and a report no result.
+    pub fn report_alone(&mut self, args: &MessageArgs) {
+        let mut messages = Messages::new(args, false);
+        self.report(&mut messages);
+        messages.finish();
     }
 }
 
@@ -133,7 +120,8 @@ fn read(scene: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
-fn style(color: Color) -> Style {
+/// How reports for people look where standard error goes.
+pub fn style(color: Color) -> Style {
     let terminal = std::io::stderr().is_terminal();
     let width = if terminal { text_width(terminal_size_of(std::io::stderr())) } else { 100 };
     Style { color: paints(color, terminal), unicode: speaks_unicode(), width }
