@@ -169,7 +169,7 @@ fn bounce_rays(geometry: &Geometry, camera: &[Ray], diagonal: f32) -> Vec<Ray> {
 /// Rays from points of the box in all directions.
 fn any_rays(min: Vec3, max: Vec3) -> Vec<Ray> {
     let mut random = Random(1);
-    let mut point = |random: &mut Random| {
+    let point = |random: &mut Random| {
         let u = [random.next(), random.next(), random.next()].map(|u| u as f32);
         min + (max - min) * Vec3::from_array(u)
     };

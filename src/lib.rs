@@ -6,11 +6,13 @@
 //!
 //! [`compile`] runs the first three. `examples/library.rs` goes all the way from a text in memory to pixels.
 
+pub mod allow;
 pub mod asset;
 pub mod check;
 pub mod cli;
 pub mod convert;
 pub mod diag;
+pub mod explain;
 pub mod format;
 pub mod ir;
 pub mod load;
@@ -45,7 +47,9 @@ pub fn compile(
     let ast = syntax::parse(sources, files, main, problems); // what was written, includes read
     let settings: Vec<Setting> = sets.iter().filter_map(|set| setting(set, sources, problems)).collect();
     let scene = resolve::resolve(&ast, sources, &settings, problems); // what it means: names bound, units applied
-    check::check(scene, problems) // that it makes sense as a whole
+    let checked = check::check(scene, problems); // that it makes sense as a whole
+    allow::check(problems); // that what it silences are warnings
+    checked
 }
 
 /// A value from the command line, as a text of its own that reports can point into.

@@ -50,6 +50,8 @@ pub enum MessageFormat {
     Short,
     /// One JSON object a line.
     Json,
+    /// One SARIF 2.1.0 document, for code scanners and editors.
+    Sarif,
 }
 
 /// When to use colour.

@@ -1,8 +1,9 @@
 //! `snell check`: every mistake of scenes, and no ray.
 
+use super::Exit;
 use super::args::{MessageArgs, SceneArgs};
+use super::messages::Messages;
 use super::session::Session;
-use super::{Exit, fail};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -20,26 +21,33 @@ pub struct CheckArgs {
 
 /// Checks each scene on its own.
 pub fn run(args: &CheckArgs) -> Exit {
+    let mut messages = Messages::new(&args.messages, true);
     let mut exit = Exit::Done;
     for scene in &args.scenes {
         let mut session = match Session::open(scene, &args.scene_args) {
             Ok(session) => session,
             Err(reason) => {
-                exit = fail(reason);
+                exit = messages.fail(reason);
                 continue;
             }
         };
-        if let Some(checked) = session.compile() {
-            let loaded = crate::load::load(&checked, &session.sources, &session.files, &mut session.problems);
-            if let Some(loaded) = loaded.filter(|_| !session.problems.has_errors()) {
-                let plan = crate::plan::plan(&loaded, checked.cameras.first(), None);
-                crate::plan::warn(&plan, &loaded, &mut session.problems);
-            }
-        }
+        check(&mut session);
         if !session.is_good() && exit == Exit::Done {
             exit = Exit::SceneWrong;
         }
-        session.report(&args.messages, true);
+        session.report(&mut messages);
     }
+    messages.finish();
     exit
+}
+
+/// All that can be said of a scene without shooting a ray.
+fn check(session: &mut Session) {
+    let Some(checked) = session.compile() else { return };
+    let loaded = crate::load::load(&checked, &session.sources, &session.files, &mut session.problems);
+    if let Some(loaded) = loaded.filter(|_| !session.problems.has_errors()) {
+        let plan = crate::plan::plan(&loaded, checked.cameras.first(), None);
+        crate::plan::warn(&plan, &loaded, &mut session.problems);
+        crate::allow::doubt_idle(&mut session.problems);
+    }
 }

@@ -1,6 +1,7 @@
 //! `snell convert`: from an arsenal.txt scene to a `.snell` scene.
 
-use super::args::MessageArgs;
+use super::args::{Deny, MessageArgs};
+use super::messages::Messages;
 use super::session;
 use super::{Exit, fail, note, print};
 use crate::convert::{Basis, Conversion, Dialect, DiskFinder, Lights, Options, report};
@@ -25,6 +26,9 @@ pub struct ConvertArgs {
     /// Treat everything that is not understood as an error
     #[arg(long)]
     strict: bool,
+    /// Treat warnings as errors
+    #[arg(long, value_name = "WHAT")]
+    deny: Option<Deny>,
     /// How the camera's basis is made where `up` leans
     #[arg(long, value_name = "HOW")]
     basis: Option<BasisArg>,
@@ -87,14 +91,19 @@ pub fn run(args: &ConvertArgs) -> Exit {
         },
     };
     let finder = DiskFinder::new(&args.input, args.asset_dirs.clone());
-    let conversion = crate::convert::convert(&text, &name, &options, Some(&finder));
+    let mut conversion = crate::convert::convert(&text, &name, &options, Some(&finder));
+    if args.deny.is_some() && !conversion.problems.is_empty() {
+        conversion.snell = None; // as after an error, nothing is written
+    }
     let written = write(args, &text, &conversion);
 
     let mut problems = crate::diag::Problems::default();
     for problem in conversion.problems {
         problems.push(problem);
     }
-    session::show(problems, &sources, &args.messages);
+    let mut messages = Messages::new(&args.messages, false);
+    messages.show(problems.into_report(&sources), args.deny);
+    messages.finish();
     match (written, conversion.snell) {
         (Err(reason), _) => fail(reason),
         (Ok(()), None) => Exit::SceneWrong,

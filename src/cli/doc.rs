@@ -59,7 +59,7 @@ fn scene(path: &str, args: &DocArgs, width: usize) -> Exit {
     let offers = session.survey();
     let good = session.is_good();
     print(reference::offers(&offers, &session.sources, width));
-    session.report(&args.messages, false);
+    session.report_alone(&args.messages);
     if good { Exit::Done } else { Exit::SceneWrong }
 }
 

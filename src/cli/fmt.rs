@@ -1,6 +1,7 @@
 //! `snell fmt`: scenes in canonical form.
 
 use super::args::MessageArgs;
+use super::messages::Messages;
 use super::{Exit, fail, note, print, session};
 use crate::diag::Problems;
 use crate::output;
@@ -23,23 +24,26 @@ pub struct FmtArgs {
 
 /// Formats each scene. One with syntax errors is left alone.
 pub fn run(args: &FmtArgs) -> Exit {
-    let exits = args.scenes.iter().map(|scene| format(scene, args));
-    exits
-        .fold(Exit::Done, |worst, exit| if worst == Exit::Done || exit == Exit::Usage { exit } else { worst })
+    let mut messages = Messages::new(&args.messages, false);
+    let exits = args.scenes.iter().map(|scene| format(scene, args, &mut messages));
+    let worst = |worst, exit| if worst == Exit::Done || exit == Exit::Usage { exit } else { worst };
+    let exit = exits.fold(Exit::Done, worst);
+    messages.finish();
+    exit
 }
 
-fn format(scene: &Path, args: &FmtArgs) -> Exit {
+fn format(scene: &Path, args: &FmtArgs, messages: &mut Messages<'_>) -> Exit {
     let text = match session::read_text(scene) {
         Ok(text) => text,
-        Err(reason) => return fail(reason),
+        Err(reason) => return messages.fail(reason),
     };
     let mut sources = SourceMap::default();
     let Some(id) = sources.add(scene.display().to_string(), scene.to_owned(), text.as_str().into()) else {
-        return fail(format_args!("`{}` is too large", scene.display()));
+        return messages.fail(format!("`{}` is too large", scene.display()));
     };
     let mut problems = Problems::default();
     let formatted = crate::format::format(&sources, id, &mut problems);
-    session::show(problems, &sources, &args.messages);
+    messages.show(problems.into_report(&sources), None);
     let Some(formatted) = formatted else { return Exit::SceneWrong };
     match scene.to_str() {
         _ if args.check && formatted == text => Exit::Done,

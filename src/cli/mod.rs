@@ -6,8 +6,10 @@ mod args;
 mod check;
 mod convert;
 mod doc;
+mod explain;
 mod fmt;
 mod interrupt;
+mod messages;
 mod new;
 mod plan;
 mod progress;
@@ -40,6 +42,8 @@ enum Command {
     Convert(convert::ConvertArgs),
     /// Explain a word of the language, or list what a scene defines
     Doc(doc::DocArgs),
+    /// Say what a diagnostic code means, and what to do
+    Explain(explain::ExplainArgs),
     /// Start a first scene to edit
     New(new::NewArgs),
 }
@@ -77,6 +81,7 @@ pub fn run() -> ExitCode {
         Command::Plan(args) => plan::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Doc(args) => doc::run(&args),
+        Command::Explain(args) => explain::run(&args),
         Command::New(args) => new::run(&args),
     };
     exit.into()

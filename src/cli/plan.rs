@@ -33,10 +33,15 @@ pub fn run(args: &PlanArgs) -> Exit {
     let text = checked.as_ref().and_then(|checked| {
         let camera = session.camera(checked, args.camera.as_deref());
         let loaded = crate::load::load(checked, &session.sources, &session.files, &mut session.problems)?;
-        Some(table(&crate::plan::plan(&loaded, camera, None), &session))
+        if session.problems.has_errors() {
+            return None; // what follows from a mistake is not worth a warning
+        }
+        let plan = crate::plan::plan(&loaded, camera, None);
+        crate::plan::warn(&plan, &loaded, &mut session.problems);
+        Some(table(&plan, &session))
     });
     let good = session.is_good();
-    session.report(&args.messages, false);
+    session.report_alone(&args.messages);
     match text {
         Some(text) if good => {
             print(text);

@@ -87,7 +87,7 @@ pub fn run(args: &RenderArgs) -> Exit {
         pool.install(|| make_ready(checked, camera, args, &mut session, start))
     });
     let good = session.is_good();
-    session.report(&args.messages, false);
+    session.report_alone(&args.messages);
     let Some(ready) = ready.filter(|_| good) else { return Exit::SceneWrong };
     if let Err(reason) = ready.reason_not_to_start(args, &targets) {
         return fail(reason);

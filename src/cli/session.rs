@@ -1,7 +1,7 @@
 //! What every command on a scene does first: read it, compile it, and say what is wrong.
 
-use super::args::{Color, Deny, MessageArgs, MessageFormat, SceneArgs};
-use super::{note, print};
+use super::args::{Color, Deny, MessageArgs, SceneArgs};
+use super::messages::Messages;
 use crate::check::Checked;
 use crate::diag::{Problems, Report, Style};
 use crate::ir::Camera;
@@ -9,6 +9,7 @@ use crate::resolve::Offer;
 use crate::source::{Disk, Files, Missing, SourceMap};
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
+use terminal_size::{Height, Width, terminal_size_of};
 
 /// A scene on its way from text to picture, with all that was noted about it.
 pub struct Session {
@@ -63,36 +64,23 @@ impl Session {
     }
 
     /// Whether nothing noted so far forbids going on.
-    pub fn is_good(&self) -> bool {
+    pub fn is_good(&mut self) -> bool {
+        self.problems.silence();
         let denied = self.deny == Some(Deny::Warnings) && !self.problems.list().is_empty();
         !self.problems.has_errors() && !denied
     }
 
-    /// Shows everything that was noted, in source order, and forgets it. Reports for programs are a command's result when
-    /// `as_result` is set, and go to standard output then.
-    pub fn report(&mut self, args: &MessageArgs, as_result: bool) {
-        let good = self.is_good();
+    /// Shows everything that was noted, in source order, and forgets it.
+    pub fn report(&mut self, messages: &mut Messages<'_>) {
         let problems = std::mem::take(&mut self.problems);
-        if !(args.quiet && good) {
-            show_all(problems, &self.sources, args, as_result);
-        }
+        messages.show(Report::new(problems, &self.sources), self.deny);
     }
-}
 
-/// Shows problems in the form that was asked for; warnings alone only where something may be said.
-pub fn show(problems: Problems, sources: &SourceMap, args: &MessageArgs) {
-    if !args.quiet || problems.has_errors() {
-        show_all(problems, sources, args, false);
-    }
-}
-
-fn show_all(problems: Problems, sources: &SourceMap, args: &MessageArgs, as_result: bool) {
-    let report = Report::new(problems, sources);
-    match args.message_format {
-        MessageFormat::Human => note(report.render_human(&style(args.color))),
-        MessageFormat::Short => note(report.render_short()),
-        MessageFormat::Json if as_result => print(report.render_json()),
-        MessageFormat::Json => note(report.render_json()),
+    /// [`Session::report`] where the scene is the only one, and a report no result.
+    pub fn report_alone(&mut self, args: &MessageArgs) {
+        let mut messages = Messages::new(args, false);
+        self.report(&mut messages);
+        messages.finish();
     }
 }
 
@@ -139,9 +127,16 @@ fn read(scene: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
-fn style(color: Color) -> Style {
+/// How reports for people look where standard error goes.
+pub fn style(color: Color) -> Style {
     let terminal = std::io::stderr().is_terminal();
-    let color = match color {
+    let width = if terminal { text_width(terminal_size_of(std::io::stderr())) } else { 100 };
+    Style { color: paints(color, terminal), unicode: speaks_unicode(), width }
+}
+
+/// Whether to use colour in a stream that is a terminal or is none.
+pub fn paints(color: Color, terminal: bool) -> bool {
+    match color {
         Color::Always => true,
         Color::Never => false,
         Color::Auto => {
@@ -149,21 +144,18 @@ fn style(color: Color) -> Style {
                 || std::env::var_os("TERM").is_some_and(|term| term == "dumb");
             terminal && !plain
         }
-    };
-    let width = if terminal { terminal_width() } else { 100 };
-    Style { color, unicode: speaks_unicode(), width }
+    }
 }
 
-/// The width of what goes to standard output: that of its terminal, or a page's.
+/// The width of text that is a command's result: that of its terminal, 80 columns elsewhere.
 pub fn result_width() -> usize {
-    let columns = terminal_size::terminal_size_of(std::io::stdout()).map(|(width, _)| usize::from(width.0));
-    columns.unwrap_or(80).clamp(60, 100)
+    let out = std::io::stdout();
+    if out.is_terminal() { text_width(terminal_size_of(out)) } else { 80 }
 }
 
-/// The terminal's width, between 60 and 120 columns.
-fn terminal_width() -> usize {
-    let columns = terminal_size::terminal_size_of(std::io::stderr()).map(|(width, _)| usize::from(width.0));
-    columns.unwrap_or(100).clamp(60, 120)
+/// The width to wrap text to on a terminal of this size: between 60 and 120 columns.
+fn text_width(size: Option<(Width, Height)>) -> usize {
+    size.map_or(100, |(width, _)| usize::from(width.0)).clamp(60, 120)
 }
 
 /// Whether the locale is one of UTF-8; where nothing is said, plain characters are safe.

@@ -7,10 +7,14 @@ mod human;
 mod json;
 mod problems;
 mod report;
+mod sarif;
+mod silence;
 mod suggest;
 mod view;
 
 pub use human::Style;
 pub use problems::{Problem, Problems, Severity, Trail};
 pub use report::Report;
+pub use sarif::{Rule, sarif};
+pub use silence::Allow;
 pub use suggest::{did_you_mean, nearest, where_it_was_sought};

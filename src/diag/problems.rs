@@ -1,6 +1,6 @@
 //! What has gone wrong so far.
 
-use super::Report;
+use super::{Allow, Report};
 use crate::source::{SourceMap, Span};
 use miette::Diagnostic;
 
@@ -53,7 +53,9 @@ impl Problem {
 /// The mistakes noted so far. No phase stops at one.
 #[derive(Default)]
 pub struct Problems {
-    list: Vec<Problem>,
+    pub(super) list: Vec<Problem>,
+    /// What the scene silences.
+    pub(super) allows: Vec<Allow>,
     error_count: usize,
 }
 
@@ -74,6 +76,7 @@ impl Problems {
     pub fn append(&mut self, other: Self) {
         self.error_count += other.error_count;
         self.list.extend(other.list);
+        self.allows.extend(other.allows);
     }
 
     /// Whether anything is wrong, not merely suspicious.
@@ -86,25 +89,15 @@ impl Problems {
         &self.list
     }
 
-    /// Removes the warnings of this code (whole, or from its last `::` on) within `span`, and says how many there were.
-    pub fn silence(&mut self, code: &str, span: Span) -> usize {
-        let before = self.list.len();
-        self.list.retain(|problem| {
-            let whole = problem.code();
-            let is_meant = whole == code || whole.rsplit("::").next() == Some(code);
-            let is_inside = (span.start as usize..=span.end as usize).contains(&problem.offset());
-            problem.severity() == Severity::Error || !is_meant || !is_inside
-        });
-        before - self.list.len()
-    }
-
     /// The report of all that was noted.
     pub fn into_report(self, sources: &SourceMap) -> Report {
         Report::new(self, sources)
     }
 
-    /// What was noted, in source order; mistakes without a place come last, equal places in the order of noting.
+    /// What was noted and is not silenced, in source order; mistakes without a place come last, equal places in the order
+    /// of noting.
     pub fn into_sorted(mut self) -> Vec<Problem> {
+        self.silence();
         self.list.sort_by_key(Problem::offset);
         self.list
     }

@@ -43,8 +43,6 @@ pub struct Scene {
     pub params: Vec<Param>,
     /// The names that objects carry, by the ids in [`Object::names`].
     pub names: Vec<Named>,
-    /// Warnings that the scene silences: the code and the item's span.
-    pub allows: Vec<(Spanned<String>, Span)>,
 }
 
 /// A shape in its place.

@@ -56,7 +56,10 @@ impl<'a> Resolver<'a> {
                 Entry::Item(_) if block.holds_items() => {}
                 Entry::Item(item) => {
                     fields.poisoned = true;
-                    self.misplaced_in(block, item);
+                    // In a body that could not be read, what looks like an item may be the rest of a mistake.
+                    if !body.poisoned {
+                        self.misplaced_in(block, item);
+                    }
                 }
             }
         }

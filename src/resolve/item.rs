@@ -41,8 +41,6 @@ impl<'a> Resolver<'a> {
                 ItemKind::Include { file: None, .. } | ItemKind::Units(_) => {}
                 _ => self.item(item, env, &mut Sink::Scene),
             }
-            let allows = item.allows.iter().map(|allow| (allow.code.clone(), item.span));
-            self.scene.allows.extend(allows);
         }
         self.unit = outer;
     }

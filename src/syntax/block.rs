@@ -102,6 +102,8 @@ impl Lower<'_> {
                 let start = sequence.allows_start.take().unwrap_or(start);
                 item.doc = self.text.doc_above(start);
                 item.span = self.text.span(start, start).to(item.span);
+                let silenced = sequence.allows.iter().map(|allow| (allow.code.clone(), item.span));
+                self.allows.extend(silenced);
                 sequence.push(item);
             }
         }
@@ -268,6 +270,9 @@ impl Lower<'_> {
         let reason = parts.take(Rule::string).map(|reason| self.string(&reason));
         parts.skip(Rule::comma);
         match (code, reason, parts.next()) {
+            (Some(_), Some(reason), None) if reason.value.trim().is_empty() => {
+                self.note(SyntaxError::BadAllow { at: reason.span, problem: "no word in it" });
+            }
             (Some(code), Some(reason), None) => sequence.allows.push(Allow { code, reason }),
             (None, ..) => self.note(SyntaxError::BadAllow { at, problem: "no code" }),
             (_, None, None) => self.note(SyntaxError::BadAllow { at, problem: "no reason" }),

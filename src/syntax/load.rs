@@ -167,6 +167,7 @@ pub(super) fn items(text: &str, base: u32, load: &mut Load<'_>, problems: &mut P
     }
     let mut lower = Lower::new(place, load);
     let items = lower.file();
+    std::mem::take(&mut lower.allows).into_iter().for_each(|(code, item)| problems.allow(code, item));
     let errors = lower.finish(repaired.errors.clone(), &repaired.guesses);
     errors.into_iter().for_each(|error| problems.push(error));
     items

@@ -31,6 +31,8 @@ pub(super) struct Lower<'a> {
     pub errors: Vec<SyntaxError>,
     /// Reads what `include` and `import` name.
     pub load: &'a mut Load<'a>,
+    /// The codes that items silence, each with its item.
+    pub allows: Vec<(Name, Span)>,
     /// The semicolons met so far: a habit is reported once.
     pub semicolons: Vec<Span>,
     /// The words of the language that items took as names: each is reported there, and not where it is used.
@@ -41,7 +43,15 @@ pub(super) struct Lower<'a> {
 impl<'a> Lower<'a> {
     /// A walk over `text`.
     pub(super) fn new(text: Text<'a>, load: &'a mut Load<'a>) -> Self {
-        Self { text, errors: Vec::new(), load, semicolons: Vec::new(), bound_words: Vec::new(), depth: 0 }
+        Self {
+            text,
+            errors: Vec::new(),
+            load,
+            allows: Vec::new(),
+            semicolons: Vec::new(),
+            bound_words: Vec::new(),
+            depth: 0,
+        }
     }
 
     /// Notes a mistake.
