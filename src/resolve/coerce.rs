@@ -56,7 +56,10 @@ impl<'a> Resolver<'a> {
         if let Some(words) = ty.words() {
             return match find_word(words, name) {
                 Some(word) => Value::Word(word),
-
+                None => self.poison(unknown_word(name, words, used)),
+            };
+        }
+        match (ty, name) {
             (Type::Exposure, "auto") => Value::Word("auto"),
             (Type::Projection, "uv") => Value::Projection(ir::Projection::Uv),
             (Type::Lens, "pinhole") => lens(self, "pinhole"),
@@ -73,20 +76,6 @@ impl<'a> Resolver<'a> {
         }
     }
 
-<<<<<<< HEAD
-    fn unknown_word(&mut self, word: &str, words: &'static [&'static str], used: Span) -> Value<'a> {
-        if words == Type::METHODS && word == "hybrid" {
-            let help = "write `method: auto`, or choose `pt` or `ppm`".to_owned();
-            return self.poison(Error::NotYet { word: word.to_owned(), used, help });
-        }
-        let wanted = Type::Choice(words).noun();
-        let help = did_you_mean(word, words.iter().copied())
-            .unwrap_or_else(|| format!("write for example `{}`", words[0]));
-        self.poison(Error::UnknownWord { word: word.to_owned(), wanted, used, help })
-    }
-
-=======
->>>>>>> dfc48d4 (Look for unknown names where evaluation does not come: branches not taken, loops without a turn, unused defaults)
     fn unknown_material(&mut self, name: &str, used: Span, env: &Env<'a>) -> Value<'a> {
         if let Some(color) = color::named(name) {
             return self.coerce(Value::Color(color), Type::Material, used);

@@ -50,7 +50,7 @@ impl<'a> Lint<'a, '_> {
         };
         let owned = name.to_owned();
         self.doubt(|this| match (ty, schema::block(name)) {
-            (Some(Type::Choice(words)), _) => unknown_word(name, words, used),
+            (Some(ty), _) if let Some(words) = ty.words() => unknown_word(name, words, used),
             (_, Some(block)) => {
                 let help = Some(format!("`{name}` needs its braces, as in `{}`", block.example));
                 Error::UnknownName { name: owned, used, help }
