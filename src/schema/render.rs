@@ -64,7 +64,7 @@ pub(super) const BLOCKS: &[Block] = &[
         kind: "classic",
         area: Area::Render,
         doc: "Recursive ray tracing, as courses teach it: no light between matt surfaces, no law of energy.",
-        example: "method: classic { shading: blinn, ambient: 0.1 }",
+        example: "classic { shading: blinn, ambient: 0.1 }",
         own: CLASSIC,
         choices: &[],
     },

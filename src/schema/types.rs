@@ -261,6 +261,7 @@ impl Type {
     pub fn takes(self, block: &Block) -> bool {
         match self {
             Self::Block(kind) => kind == block.kind,
+            Self::Method => block.kind == "classic",
             Self::Lens => block.area == Area::Camera && block.kind != "film",
             Self::Projection => block.kind == "planar",
             Self::Texture | Self::ColorInput | Self::NumberInput => {
