@@ -193,7 +193,9 @@ pub enum CheckError {
     #[diagnostic(
         code(snell::check::light_sealed),
         severity(warning),
-        help("move the light out of it, or make it of `glass {{ ior: 1.5 }}` or `emissive {{ power: 60W }}`")
+        help(
+            "move the light out of it, or make it of `glass {{ ior: 1.5 }}` or `emissive {{ power: 60W }}`"
+        )
     )]
     LightSealed {
         noun: &'static str,
@@ -260,7 +262,9 @@ pub enum CheckError {
     #[diagnostic(
         code(snell::check::camera_in_glass),
         severity(warning),
-        help("move the camera out; if a view from within is meant, `allow(camera_in_glass, \"..\")` before the camera says so")
+        help(
+            "move the camera out; if a view from within is meant, `allow(camera_in_glass, \"..\")` before the camera says so"
+        )
     )]
     CameraInGlass {
         #[label("the camera is here")]
@@ -272,7 +276,9 @@ pub enum CheckError {
     #[diagnostic(
         code(snell::check::glass_overlap),
         severity(warning),
-        help("move them apart, or put one wholly into the other: what both claim is filled by whichever light enters last")
+        help(
+            "move them apart, or put one wholly into the other: what both claim is filled by whichever light enters last"
+        )
     )]
     GlassOverlap {
         #[label("this glass sticks out of")]
@@ -284,7 +290,9 @@ pub enum CheckError {
     #[diagnostic(
         code(snell::check::coincident_glass),
         severity(warning),
-        help("leave a hair's breadth between them, or make one solid of both: which surface light meets first is left open")
+        help(
+            "leave a hair's breadth between them, or make one solid of both: which surface light meets first is left open"
+        )
     )]
     CoincidentGlass {
         #[label("a surface of this")]

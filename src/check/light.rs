@@ -1,8 +1,8 @@
 //! Lights: never negative, seldom dark.
 
+use super::Check;
 use super::error::CheckError;
 use super::space::{Meshes, OwnMaterial};
-use super::Check;
 use crate::ir::light::EnvironmentRadiance;
 use crate::ir::{Brightness, Environment, Light, LightKind, MaterialKind, Method, Object, ShapeKind};
 use crate::math::Rgb;

@@ -21,8 +21,8 @@ pub use camera::camera;
 pub use error::CheckError;
 use miette::Diagnostic;
 use rustc_hash::FxHashSet;
-pub use space::{MeshPart, Meshes, OwnMaterial, survey};
 use space::NoMeshes;
+pub use space::{MeshPart, Meshes, OwnMaterial, survey};
 use std::ops::Deref;
 
 /// A scene that was checked. Only [`check`] makes one; it makes sense when no error was noted.

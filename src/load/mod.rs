@@ -64,13 +64,10 @@ impl Loaded<'_> {
 impl Meshes for Loaded<'_> {
     fn parts(&self, shape: Handle<crate::ir::Shape>) -> Vec<MeshPart<'_>> {
         let Some(mesh) = self.mesh(shape) else { return Vec::new() };
-        let part = |part: &'_ asset::Part| own_material(part.material.map(|index| &mesh.model.materials[index]));
+        let part =
+            |part: &'_ asset::Part| own_material(part.material.map(|index| &mesh.model.materials[index]));
         let parts = mesh.model.parts.iter();
         parts.map(|p| MeshPart { positions: &p.positions, triangles: &p.triangles, own: part(p) }).collect()
-    }
-
-    fn flat_triangles(&self, shape: Handle<crate::ir::Shape>) -> usize {
-        self.mesh(shape).map_or(0, |mesh| mesh.model.notes.degenerate)
     }
 }
 

@@ -40,12 +40,17 @@ impl Panel {
 impl Survey<'_> {
     /// Lights that shine away from everything, or into a wall.
     pub(super) fn aims(&self) -> Vec<CheckError> {
-        self.panels().iter().filter_map(|panel| self.away(panel).or_else(|| self.against_wall(panel))).collect()
+        self.panels()
+            .iter()
+            .filter_map(|panel| self.away(panel).or_else(|| self.against_wall(panel)))
+            .collect()
     }
 
     fn panels(&self) -> Vec<Panel> {
         let lights = self.scene.lights.iter().filter_map(|light| match light.kind {
-            LightKind::Rect { origin, edge_u, edge_v, two_sided: false } if !is_dark(light.brightness.value) => {
+            LightKind::Rect { origin, edge_u, edge_v, two_sided: false }
+                if !is_dark(light.brightness.value) =>
+            {
                 Panel::of(origin, edge_u, edge_v, light.span, None)
             }
             _ => None,

@@ -81,8 +81,7 @@ impl Survey<'_> {
             let parts = meshes.parts(thing.object.shape);
             let glass = parts.iter().filter(|part| is_clear(part.own));
             let surface = Surface::weld_exactly(glass.flat_map(|part| corners(part, thing.kind)));
-            let flat = meshes.flat_triangles(thing.object.shape);
-            surface_doubt(&surface, &file.value, file.span, flat)
+            surface_doubt(&surface, &file.value, file.span)
         });
         doubts.collect()
     }
@@ -100,19 +99,19 @@ fn is_below(thing: &Thing<'_>, eye: &Region) -> bool {
     plane.is_some_and(|(n, offset)| eye.support(n) < offset)
 }
 
-/// What is wrong with a surface around glass. Triangles without area were left out of it; their sides are no gaps.
-fn surface_doubt(surface: &Surface, name: &str, used: Span, flat: usize) -> Option<CheckError> {
+/// What is wrong with a surface around glass.
+fn surface_doubt(surface: &Surface, name: &str, used: Span) -> Option<CheckError> {
     let name = name.to_owned();
     let seams = surface.seams();
     if surface.triangle_count() == 0 {
         None
-    } else if seams.open > 3 * flat {
-        let edges = if seams.open == 1 { "1 open edge".to_owned() } else { format!("{} open edges", seams.open) };
-        Some(CheckError::OpenGlass { name, edges, used })
     } else if seams.open > 0 {
-        None
+        let edges =
+            if seams.open == 1 { "1 open edge".to_owned() } else { format!("{} open edges", seams.open) };
+        Some(CheckError::OpenGlass { name, edges, used })
     } else if seams.mixed > 0 {
-        let said = format!("at {} of its edges two triangles disagree about which side is outside", seams.mixed);
+        let said =
+            format!("at {} of its edges two triangles disagree about which side is outside", seams.mixed);
         Some(CheckError::InsideOutGlass { name, said, used })
     } else if surface.volume() < 0.0 {
         let said = "its triangles face inwards".to_owned();
@@ -124,7 +123,7 @@ fn surface_doubt(surface: &Surface, name: &str, used: Span, flat: usize) -> Opti
 
 /// What is wrong with two glasses beside each other.
 fn pair(a: &Clear<'_>, b: &Clear<'_>) -> Option<CheckError> {
-    if !a.solid.extent.touches(&b.solid.extent) {
+    if !a.solid.extent.touches(&b.solid.extent.grown(ROUNDING)) {
         return None;
     }
     let (first, second) = (a.thing.object.span, b.thing.object.span);
@@ -181,7 +180,12 @@ impl Solid {
                 let faces = DVec3::AXES.map(|axis| other.own_from_world().matrix3.transpose() * axis);
                 // The farthest point along a normal of the world, in the frame in which this is the unit ball.
                 let faces = faces.map(|n| to_world.matrix3.transpose() * n);
-                faces.into_iter().chain([own]).filter_map(DVec3::try_normalize).flat_map(|d| [d, -d]).collect()
+                faces
+                    .into_iter()
+                    .chain([own])
+                    .filter_map(DVec3::try_normalize)
+                    .flat_map(|d| [d, -d])
+                    .collect()
             }
             Form::Cube => DVec3::AXES
                 .into_iter()
@@ -209,7 +213,8 @@ fn parted_by_edges(a: &Solid, b: &Solid) -> bool {
     let (to_a, to_b) = (a.world_from_own().matrix3, b.world_from_own().matrix3);
     let edges = |m: DMat3| [m.x_axis, m.y_axis, m.z_axis];
     edges(to_a).into_iter().flat_map(|u| edges(to_b).map(|v| u.cross(v))).any(|n| {
-        let depth = (region_a.support(n) + region_b.support(-n)).min(region_a.support(-n) + region_b.support(n));
+        let depth =
+            (region_a.support(n) + region_b.support(-n)).min(region_a.support(-n) + region_b.support(n));
         let width = region_a.support(n) + region_a.support(-n);
         n.try_normalize().is_some() && depth <= TOUCH * width
     })
@@ -241,7 +246,8 @@ fn share_a_face(a: &Solid, b: &Solid) -> bool {
     faces.any(|(middle, u, v)| {
         (0..3).any(|axis| {
             let level = middle[axis];
-            let is_level = u[axis].abs().max(v[axis].abs()) <= ROUNDING && (level.abs() - 1.0).abs() <= ROUNDING;
+            let is_level =
+                u[axis].abs().max(v[axis].abs()) <= ROUNDING && (level.abs() - 1.0).abs() <= ROUNDING;
             let flat = |p: DVec3| DVec2::new(p[(axis + 1) % 3], p[(axis + 2) % 3]);
             is_level && covers_some(flat(middle), flat(u), flat(v))
         })

@@ -32,9 +32,6 @@ const MOST_OBJECTS: usize = 50_000;
 pub trait Meshes {
     /// The parts of a mesh; none when it was left out.
     fn parts(&self, shape: Handle<Shape>) -> Vec<MeshPart<'_>>;
-
-    /// How many triangles without area the file has: they were left out, and may have left gaps that are none.
-    fn flat_triangles(&self, shape: Handle<Shape>) -> usize;
 }
 
 /// Triangles of one material.
@@ -66,10 +63,6 @@ impl Meshes for NoMeshes {
     fn parts(&self, _: Handle<Shape>) -> Vec<MeshPart<'_>> {
         Vec::new()
     }
-
-    fn flat_triangles(&self, _: Handle<Shape>) -> usize {
-        0
-    }
 }
 
 /// Notes what is doubtful about the places of things in a scene with meshes; in one without, [`check`](super::check) did.
@@ -92,7 +85,8 @@ impl Check<'_> {
         }
         self.any_light(meshes);
         let survey = Survey::of(self.scene, meshes);
-        let doubts = [survey.rooms(), survey.glass(), survey.open_glass(meshes), survey.aims(), survey.views()];
+        let doubts =
+            [survey.rooms(), survey.glass(), survey.open_glass(meshes), survey.aims(), survey.views()];
         doubts.into_iter().flatten().for_each(|doubt| self.report(doubt));
     }
 }

@@ -149,6 +149,12 @@ impl Extent {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
 
+    /// Larger on each side by a share of its size.
+    pub(super) fn grown(&self, share: f64) -> Self {
+        let more = DVec3::splat(share * (self.max - self.min).max_element());
+        Self { min: self.min - more, max: self.max + more }
+    }
+
     pub(super) fn volume(&self) -> f64 {
         (self.max - self.min).element_product()
     }

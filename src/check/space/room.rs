@@ -89,7 +89,8 @@ impl Survey<'_> {
             .iter()
             .filter_map(|wall| Some(Hidden { wall, camera_inside: self.eyes_inside(wall)? }))
             .collect();
-        let hidden_lamps: Vec<Option<Hidden>> = self.lamps.iter().map(|lamp| hider(&sides, &lamp.reach)).collect();
+        let hidden_lamps: Vec<Option<Hidden>> =
+            self.lamps.iter().map(|lamp| hider(&sides, &lamp.reach)).collect();
         let hidden_lamps = self.hide_sky(&sides, hidden_lamps);
         if let Some(dark) = self.dark(&sides, &hidden_lamps) {
             return vec![dark];
@@ -97,7 +98,8 @@ impl Survey<'_> {
         let lamps = self.lamps.iter().zip(hidden_lamps).map(|(lamp, hidden)| (lamp.span, hidden));
         let lamps = all_of_them(lamps).into_iter().map(|(light, hidden)| hidden.light(light));
         let things = self.hidden_things(&sides);
-        let things = all_of_them(things.into_iter()).into_iter().map(|(object, hidden)| hidden.object(object));
+        let things =
+            all_of_them(things.into_iter()).into_iter().map(|(object, hidden)| hidden.object(object));
         lamps.chain(things).collect()
     }
 
@@ -135,7 +137,11 @@ impl Survey<'_> {
     }
 
     /// The environment is hidden where planes shut the cameras in on all sides.
-    fn hide_sky<'w>(&self, sides: &[Hidden<'w>], mut lamps: Vec<Option<Hidden<'w>>>) -> Vec<Option<Hidden<'w>>> {
+    fn hide_sky<'w>(
+        &self,
+        sides: &[Hidden<'w>],
+        mut lamps: Vec<Option<Hidden<'w>>>,
+    ) -> Vec<Option<Hidden<'w>>> {
         let outwards = |side: &Hidden| match side.wall.kind {
             WallKind::Plane { normal, .. } => Some(if side.camera_inside { normal } else { -normal }),
             WallKind::Solid(_) => None,
@@ -205,7 +211,8 @@ impl Survey<'_> {
         if owners.is_empty() || corners.len() > 2 * MOST_QUADS {
             return Vec::new();
         }
-        let size = Extent::of(corners.iter().flatten().copied()).map_or(0.0, |e| (e.max - e.min).max_element());
+        let size =
+            Extent::of(corners.iter().flatten().copied()).map_or(0.0, |e| (e.max - e.min).max_element());
         let grid = |p: DVec3| (p / (WELDED * size)).round().to_array().map(|x| (x + 0.0).to_bits());
         let parts = Surface::weld(corners, grid).closed_parts();
         parts

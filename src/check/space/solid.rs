@@ -245,7 +245,8 @@ impl Loop {
     fn winding(&self, p: DVec2) -> i32 {
         let turn = |(a, b): (DVec2, DVec2)| {
             let left = (b - a).perp_dot(p - a);
-            i32::from(a.y <= p.y && p.y < b.y && left > 0.0) - i32::from(b.y <= p.y && p.y < a.y && left < 0.0)
+            i32::from(a.y <= p.y && p.y < b.y && left > 0.0)
+                - i32::from(b.y <= p.y && p.y < a.y && left < 0.0)
         };
         self.sides().map(turn).sum()
     }
@@ -264,7 +265,8 @@ impl Loop {
     /// Points of the surface of revolution.
     fn turned_points(&self) -> Vec<DVec3> {
         const AROUND: u32 = 8;
-        let directions = (0..AROUND).map(|i| DVec2::from_angle(f64::from(i) / f64::from(AROUND) * std::f64::consts::TAU));
+        let directions =
+            (0..AROUND).map(|i| DVec2::from_angle(f64::from(i) / f64::from(AROUND) * std::f64::consts::TAU));
         let directions: Vec<DVec2> = directions.collect();
         let ring = |p: &DVec2| {
             let p = *p;
@@ -280,7 +282,9 @@ impl Loop {
 }
 
 fn size(points: &[DVec2]) -> f64 {
-    let (min, max) = points.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| (min.min(*p), max.max(*p)));
+    let (min, max) = points
+        .iter()
+        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(min, max), p| (min.min(*p), max.max(*p)));
     (max - min).max_element()
 }
 

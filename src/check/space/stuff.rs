@@ -70,11 +70,7 @@ fn stuff(kind: &MaterialKind, part: impl Fn(Handle<Material>) -> Stuff) -> Stuff
         MaterialKind::Emissive { .. } => Stuff { shines: true, is_lamp: true, ..Stuff::default() },
         MaterialKind::Mix { a, b, .. } => {
             let (a, b) = (part(*a), part(*b));
-            Stuff {
-                is_opaque: a.is_opaque && b.is_opaque,
-                shines: a.shines || b.shines,
-                ..Stuff::default()
-            }
+            Stuff { is_opaque: a.is_opaque && b.is_opaque, shines: a.shines || b.shines, ..Stuff::default() }
         }
     }
 }

@@ -22,6 +22,26 @@ pub(super) struct Seams {
     pub(super) mixed: usize,
 }
 
+/// How triangles use an edge.
+#[derive(Clone, Copy, Default)]
+struct Uses {
+    count: u32,
+    /// How many more go along it from its lower to its higher corner than back.
+    forwards: i32,
+}
+
+impl Uses {
+    fn add(&mut self, count: u32, forwards: i32) {
+        self.count += count;
+        self.forwards += forwards;
+    }
+}
+
+/// Surfaces with more open edges than this are not looked at for corners on sides.
+const MOST_OPEN: usize = 4_000;
+/// How far a corner may be from a side that it lies on, as a share of the side.
+const ON_EDGE: f64 = 1e-6;
+
 impl Surface {
     /// Welds corners that `key` takes for the same place. Triangles that come down to a line vanish.
     pub(super) fn weld<K: std::hash::Hash + Eq>(
@@ -57,26 +77,60 @@ impl Surface {
         Extent::of(self.triangles.iter().flatten().map(|&i| self.points[i as usize]))
     }
 
-    /// What the edges say.
+    /// What the edges say. Where a corner lies on the side of a neighbour there is no gap.
     pub(super) fn seams(&self) -> Seams {
+        let mut edges = self.edges();
+        let open: Vec<_> =
+            edges.iter().filter(|(_, uses)| uses.count % 2 == 1).map(|(&edge, _)| edge).collect();
+        if (1..=MOST_OPEN).contains(&open.len()) {
+            self.split(&mut edges, &open);
+        }
         let mut seams = Seams::default();
-        for (count, sum) in self.edges().values() {
-            seams.open += usize::from(count % 2 == 1);
-            seams.mixed += usize::from(count % 2 == 0 && *sum != 0);
+        for uses in edges.values() {
+            seams.open += usize::from(uses.count % 2 == 1);
+            seams.mixed += usize::from(uses.count % 2 == 0 && uses.forwards != 0);
         }
         seams
     }
 
-    /// For each edge how many triangles it has, and how many more go along it one way than the other.
-    fn edges(&self) -> FxHashMap<(u32, u32), (u32, i32)> {
-        let mut edges: FxHashMap<(u32, u32), (u32, i32)> = FxHashMap::default();
+    fn edges(&self) -> FxHashMap<(u32, u32), Uses> {
+        let mut edges: FxHashMap<(u32, u32), Uses> = FxHashMap::default();
         edges.reserve(self.triangles.len() * 3 / 2);
         for (a, b) in self.triangles.iter().flat_map(|&t| sides(t)) {
-            let edge = edges.entry((a.min(b), a.max(b))).or_default();
-            edge.0 += 1;
-            edge.1 += if a < b { 1 } else { -1 };
+            edges.entry((a.min(b), a.max(b))).or_default().add(1, if a < b { 1 } else { -1 });
         }
         edges
+    }
+
+    /// Cuts open edges where corners of other open edges lie on them.
+    fn split(&self, edges: &mut FxHashMap<(u32, u32), Uses>, open: &[(u32, u32)]) {
+        let mut corners: Vec<u32> = open.iter().flat_map(|&(a, b)| [a, b]).collect();
+        corners.sort_unstable();
+        corners.dedup();
+        for &(a, b) in open {
+            let (start, way) = (self.points[a as usize], self.points[b as usize] - self.points[a as usize]);
+            let mut on_it: Vec<(f64, u32)> = corners
+                .iter()
+                .filter_map(|&corner| {
+                    let p = self.points[corner as usize] - start;
+                    let along = p.dot(way) / way.length_squared();
+                    let is_on = p.distance(way * along) <= ON_EDGE * way.length();
+                    (is_on && along > ON_EDGE && along < 1.0 - ON_EDGE).then_some((along, corner))
+                })
+                .collect();
+            if on_it.is_empty() {
+                continue;
+            }
+            let Some(uses) = edges.remove(&(a, b)) else { continue };
+            on_it.sort_by(|x, y| x.0.total_cmp(&y.0));
+            let stops = std::iter::once(a).chain(on_it.into_iter().map(|(_, corner)| corner)).chain([b]);
+            let stops: Vec<u32> = stops.collect();
+            for pair in stops.windows(2) {
+                let (from, to) = (pair[0], pair[1]);
+                let sign = if from < to { 1 } else { -1 };
+                edges.entry((from.min(to), from.max(to))).or_default().add(uses.count, sign * uses.forwards);
+            }
+        }
     }
 
     /// The enclosed volume; negative when the triangles face inwards. Only of a surface without seams.
@@ -234,6 +288,17 @@ mod tests {
         mixed[2].swap(0, 1);
         assert_eq!(Surface::weld_exactly(open).seams(), Seams { open: 3, mixed: 0 });
         assert_eq!(Surface::weld_exactly(mixed).seams(), Seams { open: 0, mixed: 3 });
+    }
+
+    #[test]
+    fn a_corner_on_a_side_leaves_no_gap() {
+        let mut corners = tetrahedron();
+        let [a, b, c] = corners[2];
+        corners[2] = [a, b.midpoint(a), c];
+        corners.push([a.midpoint(b), b, c]);
+        assert_eq!(Surface::weld_exactly(corners.clone()).seams(), Seams::default());
+        corners.pop();
+        assert_eq!(Surface::weld_exactly(corners).seams(), Seams { open: 3, mixed: 0 });
     }
 
     #[test]

@@ -29,7 +29,10 @@ impl Survey<'_> {
             return None;
         }
         if all.iter().all(|region| view.misses(region)) {
-            return Some(CheckError::NothingInView { view: camera.direction.span, position: camera.position.span });
+            return Some(CheckError::NothingInView {
+                view: camera.direction.span,
+                position: camera.position.span,
+            });
         }
         let extent = all.iter().map(|region| region.extent()).reduce(Extent::union)?;
         view.is_dot(&extent).then_some(CheckError::TooSmallToSee { position: camera.position.span })
