@@ -5,7 +5,7 @@
 //! lose them, with a note; triangles of no area are dropped and counted.
 
 use super::polygon::triangulate_face;
-use crate::math::{Vec2, Vec3};
+use crate::math::{Rgb, Vec2, Vec3};
 use std::cell::Cell;
 use std::collections::HashMap;
 use std::io::{self, BufRead, Read};
@@ -63,6 +63,18 @@ pub struct ModelMaterial {
     pub opacity: Option<f32>,
     /// `map_Kd`.
     pub diffuse_map: Option<String>,
+}
+
+impl ModelMaterial {
+    /// Whether it shines.
+    pub fn shines(&self) -> bool {
+        self.emission.is_some_and(|c| Rgb::from(c).is_valid() && !Rgb::from(c).is_black())
+    }
+
+    /// Whether light goes through it: less than half opaque.
+    pub fn is_clear(&self) -> bool {
+        !self.shines() && self.opacity.is_some_and(|opacity| opacity < 0.5)
+    }
 }
 
 /// What was read differently from what the file says.

@@ -26,7 +26,9 @@ fn counter_clockwise(t: [u32; 3], points: &[[f64; 2]]) -> [u32; 3] {
 
 /// Triangles (indices into `corners`) of one face in space, in the face's own direction.
 ///
-/// Triangles and convex quadrangles are fanned; the rest is projected along its Newell normal and ear-clipped.
+/// Triangles and convex faces are fanned; the rest is projected along its Newell normal and ear-clipped. A twisted face,
+/// which has no such projection without crossings, is fanned from the corner that folds it least: the sides of a face are
+/// always those of its triangles, so that closed meshes stay closed.
 pub fn triangulate_face(corners: &[Vec3]) -> Vec<[u32; 3]> {
     match corners.len() {
         0..3 => Vec::new(),
@@ -34,11 +36,41 @@ pub fn triangulate_face(corners: &[Vec3]) -> Vec<[u32; 3]> {
         _ => {
             let flat = flatten(corners);
             if is_convex(&flat) {
-                return (1..corners.len() as u32 - 1).map(|i| [0, i, i + 1]).collect();
+                return fan(0, corners.len());
             }
-            triangulate_region(&flat, &[])
+            let ears = triangulate_region(&flat, &[]);
+            if has_sides_of_face(&ears, corners.len()) { ears } else { best_fan(&flat) }
         }
     }
+}
+
+/// The triangles of `n` corners that all have the corner `first`.
+fn fan(first: usize, n: usize) -> Vec<[u32; 3]> {
+    let corner = |i: usize| ((first + i) % n) as u32;
+    (1..n - 1).map(|i| [corner(0), corner(i), corner(i + 1)]).collect()
+}
+
+/// The fan whose smallest triangle, turned ones counting as less than nothing, is the largest.
+fn best_fan(flat: &[DVec2]) -> Vec<[u32; 3]> {
+    let smallest = |first: &usize| {
+        let area = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|i| flat[i as usize]);
+            (b - a).perp_dot(c - a)
+        };
+        fan(*first, flat.len()).iter().map(area).fold(f64::INFINITY, f64::min)
+    };
+    let first = (0..flat.len()).max_by(|a, b| smallest(a).total_cmp(&smallest(b))).unwrap_or(0);
+    fan(first, flat.len())
+}
+
+/// Whether the sides that only one triangle has are those of the face, in its direction.
+fn has_sides_of_face(triangles: &[[u32; 3]], n: usize) -> bool {
+    let mut sides: Vec<(u32, u32)> =
+        triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+    sides.sort_unstable();
+    let is_side = |&(a, b): &(u32, u32)| (a + 1) % n as u32 == b;
+    let is_inner = |&(a, b): &(u32, u32)| sides.binary_search(&(b, a)).is_ok();
+    triangles.len() == n - 2 && sides.iter().all(|side| is_side(side) != is_inner(side))
 }
 
 /// The corners in a plane across their Newell normal (Newell's method: Tampieri 1992), counter-clockwise.
@@ -93,5 +125,15 @@ mod tests {
         let points: Vec<DVec2> = corners.iter().map(|p| p.truncate().as_dvec2()).collect();
         assert!(triangles.iter().all(|t| area(&[*t], &points) > 0.0), "{triangles:?}");
         assert!((area(&triangles, &points) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_twisted_face_keeps_its_sides() {
+        // Its projection along the Newell normal crosses itself.
+        let corners = [(0.0, 0.0, 0.0), (1.0, 1.0, 0.3), (1.0, 0.0, 1.0), (0.0, 1.0, 0.6)];
+        let corners = corners.map(|(x, y, z)| Vec3::new(x, y, z));
+        let triangles = triangulate_face(&corners);
+        assert!(has_sides_of_face(&triangles, 4), "{triangles:?}");
+        assert!(has_sides_of_face(&fan(2, 5), 5) && !has_sides_of_face(&fan(2, 5)[1..], 5));
     }
 }

@@ -9,7 +9,7 @@ use crate::schema::Type;
 /// Pieces into which a cubic is cut to look at it.
 const PIECES: usize = 16;
 /// Outlines with more pieces than this are not searched for crossings, which takes the square of their number.
-const MOST_PIECES: usize = 3_000;
+pub(super) const MOST_PIECES: usize = 3_000;
 
 impl Check<'_> {
     /// A profile is turned about the axis: it stays on one side of it.
@@ -78,7 +78,7 @@ impl Check<'_> {
 }
 
 /// Points along a curve.
-fn flatten(curve: &Curve, closed: bool) -> Vec<DVec2> {
+pub(super) fn flatten(curve: &Curve, closed: bool) -> Vec<DVec2> {
     let p = &curve.points;
     match curve.kind {
         CurveKind::Polyline => p.clone(),
@@ -100,6 +100,21 @@ fn flatten(curve: &Curve, closed: bool) -> Vec<DVec2> {
             let last = (!closed).then(|| at(spans - 1, PIECES));
             pieces.map(|(k, i)| at(k, i)).chain(last).collect()
         }
+    }
+}
+
+/// No point of a curve is farther than this from the line through its [`flatten`]ed points.
+///
+/// A curve leaves the chord over a parameter step h by at most h²/8 · max|c″|; c″ is at most n (n − 1) times the largest
+/// second difference of the control points for a Bézier curve of degree n, and that difference itself for a B-spline.
+pub(super) fn chord_error(curve: &Curve) -> f64 {
+    let bends = curve.points.windows(3).map(|p| (p[0] - p[1] * 2.0 + p[2]).length());
+    let bend = bends.fold(0.0, f64::max);
+    let step = 1.0 / PIECES as f64;
+    match curve.kind {
+        CurveKind::Polyline => 0.0,
+        CurveKind::Bezier => step * step / 8.0 * 6.0 * bend,
+        CurveKind::BezierOneCurve | CurveKind::Bspline => step * step / 8.0 * bend,
     }
 }
 
@@ -130,7 +145,7 @@ fn area(points: &[DVec2]) -> f64 {
 }
 
 /// The first edge of a closed polygon that properly crosses a later one.
-fn crossing(points: &[DVec2]) -> Option<usize> {
+pub(super) fn crossing(points: &[DVec2]) -> Option<usize> {
     let n = points.len();
     if n > MOST_PIECES {
         return None;

@@ -2,8 +2,9 @@
 
 use super::Check;
 use super::error::CheckError;
+use super::space::{Meshes, OwnMaterial};
 use crate::ir::light::EnvironmentRadiance;
-use crate::ir::{Brightness, Light, LightKind, MaterialKind, Method, ShapeKind};
+use crate::ir::{Brightness, Environment, Light, LightKind, MaterialKind, Method, Object, ShapeKind};
 use crate::math::Rgb;
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
@@ -16,7 +17,6 @@ impl Check<'_> {
         }
         self.endless_lights();
         self.environment();
-        self.any_light();
         self.caustics();
     }
 
@@ -95,11 +95,18 @@ impl Check<'_> {
         }
     }
 
-    fn any_light(&mut self) {
-        let lit = !self.scene.lights.is_empty()
-            || self.scene.environment.is_some()
-            || self.placed_materials().any(|(kind, _)| matches!(kind, MaterialKind::Emissive { .. }));
-        if let (false, true, Some(camera)) = (lit, self.whole, self.scene.cameras.first()) {
+    /// Notes that there is no light at all. A mesh may bring one of its own.
+    pub(super) fn any_light(&mut self, meshes: &dyn Meshes) {
+        let scene = self.scene;
+        let is_lamp = |object: &Object| {
+            let is_painted = object.material.or(scene.shapes[object.shape].material).is_some();
+            !is_painted && meshes.parts(object.shape).iter().any(|part| part.own == OwnMaterial::Shining)
+        };
+        let lit = !scene.lights.is_empty()
+            || scene.environment.as_ref().is_some_and(Environment::is_lit)
+            || self.placed_materials().any(|(kind, _)| matches!(kind, MaterialKind::Emissive { .. }))
+            || scene.objects.iter().any(is_lamp);
+        if let (false, Some(camera)) = (lit, scene.cameras.first()) {
             self.report(CheckError::NoLight { camera: camera.span });
         }
     }

@@ -9,8 +9,8 @@ mod error;
 mod light;
 mod material;
 mod render;
-mod sealed;
 mod shape;
+mod space;
 mod transform;
 
 use crate::diag::Problems;
@@ -21,17 +21,23 @@ pub use camera::camera;
 pub use error::CheckError;
 use miette::Diagnostic;
 use rustc_hash::FxHashSet;
+use space::NoMeshes;
+pub use space::{MeshPart, Meshes, OwnMaterial, survey};
 use std::ops::Deref;
 
 /// A scene that was checked. Only [`check`] makes one; it makes sense when no error was noted.
 #[derive(Debug)]
-pub struct Checked(Scene);
+pub struct Checked {
+    scene: Scene,
+    /// Whether all objects, lights and cameras are sound, so that it makes sense to ask where they are.
+    is_sound: bool,
+}
 
 impl Deref for Checked {
     type Target = Scene;
 
     fn deref(&self) -> &Scene {
-        &self.0
+        &self.scene
     }
 }
 
@@ -46,15 +52,18 @@ pub fn check(scene: Scene, problems: &mut Problems) -> Option<Checked> {
     }
     // What is missing may be what could not be resolved: then it is not worth a report of its own.
     let whole = !problems.has_errors();
-    let mut check = Check { scene: &scene, problems, whole, reported: FxHashSet::default() };
+    let mut check = Check::new(&scene, problems, whole);
     check.shapes();
     check.transforms();
-    check.materials();
     check.lights();
     check.cameras();
+    let is_sound = !check.problems.has_errors();
+    check.materials();
     check.render();
-    check.sealed();
-    Some(Checked(scene))
+    if is_sound && !space::places_meshes(&scene) {
+        check.survey(&NoMeshes);
+    }
+    Some(Checked { scene, is_sound })
 }
 
 /// The check of a scene.
@@ -65,6 +74,12 @@ struct Check<'a> {
     whole: bool,
     /// Reports that were made, by code and place: what a loop or a function made many times is wrong once.
     reported: FxHashSet<(String, usize)>,
+}
+
+impl<'a> Check<'a> {
+    fn new(scene: &'a Scene, problems: &'a mut Problems, whole: bool) -> Self {
+        Self { scene, problems, whole, reported: FxHashSet::default() }
+    }
 }
 
 impl Check<'_> {

@@ -85,6 +85,14 @@ pub struct Environment {
     pub span: Span,
 }
 
+impl Environment {
+    /// Whether it shines at all; a picture may.
+    pub fn is_lit(&self) -> bool {
+        let is_black = matches!(self.radiance, EnvironmentRadiance::Constant(color) if color.is_black());
+        self.scale.value != 0.0 && !is_black
+    }
+}
+
 /// What an environment shines with.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum EnvironmentRadiance {

@@ -4,8 +4,8 @@
 
 mod error;
 
-use crate::asset::{Model, obj, picture};
-use crate::check::Checked;
+use crate::asset::{self, Model, ModelMaterial, obj, picture};
+use crate::check::{self, Checked, MeshPart, Meshes, OwnMaterial};
 use crate::diag::Problems;
 use crate::ir::light::EnvironmentRadiance;
 use crate::ir::material::Input;
@@ -61,6 +61,25 @@ impl Loaded<'_> {
     }
 }
 
+impl Meshes for Loaded<'_> {
+    fn parts(&self, shape: Handle<crate::ir::Shape>) -> Vec<MeshPart<'_>> {
+        let Some(mesh) = self.mesh(shape) else { return Vec::new() };
+        let part =
+            |part: &'_ asset::Part| own_material(part.material.map(|index| &mesh.model.materials[index]));
+        let parts = mesh.model.parts.iter();
+        parts.map(|p| MeshPart { positions: &p.positions, triangles: &p.triangles, own: part(p) }).collect()
+    }
+}
+
+/// What a material of a mesh file does to light.
+fn own_material(material: Option<&ModelMaterial>) -> OwnMaterial {
+    match material {
+        Some(material) if material.shines() => OwnMaterial::Shining,
+        Some(material) if material.is_clear() => OwnMaterial::Clear,
+        _ => OwnMaterial::Opaque,
+    }
+}
+
 /// Reads the files of everything that is in the picture. `None` when one of them cannot be used.
 pub fn load<'a>(
     scene: &'a Checked,
@@ -96,7 +115,9 @@ pub fn load<'a>(
     {
         loader.texture(texture);
     }
-    (!loader.failed).then_some(loader.loaded)
+    let loaded = (!loader.failed).then_some(loader.loaded)?;
+    check::survey(scene, &loaded, problems);
+    Some(loaded)
 }
 
 struct Loader<'a, 'b> {

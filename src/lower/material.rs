@@ -168,7 +168,7 @@ impl<'a> Materials<'a> {
         if let Some(radiance) = color(material.emission) {
             return Material::Emissive { radiance, two_sided: false };
         }
-        if material.opacity.is_some_and(|opacity| opacity < 0.5) {
+        if material.is_clear() {
             let ior = material.ior.filter(|ior| *ior >= 1.0).unwrap_or(GLASS_IOR);
             return Material::Glass { ior, tint: Rgb::WHITE, absorption: Rgb::BLACK };
         }

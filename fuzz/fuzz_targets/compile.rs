@@ -1,0 +1,5 @@
+//! Any text ends in a plan or in a report, files and all.
+
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|text: &str| snell_fuzz::compile(text));

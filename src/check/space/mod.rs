@@ -1,0 +1,250 @@
+//! Where things are: what is inside of what, what stands before what, and what nothing can reach.
+//!
+//! All of it is doubt, and only what is certain is said: a region that may stick out of a solid is not inside of it. What
+//! loops place is doubted only where all of it is doubtful.
+
+mod aim;
+mod glass;
+mod region;
+mod room;
+mod solid;
+mod stuff;
+mod surface;
+mod view;
+
+use super::error::CheckError;
+use super::{Check, Checked};
+use crate::diag::Problems;
+use crate::ir::{Handle, LightKind, Object, Scene, Shape, ShapeKind};
+use crate::math::{DAffine3, DVec3, Vec3};
+use crate::source::Span;
+use region::{Extent, Region};
+use rustc_hash::FxHashMap;
+use solid::Solid;
+use std::rc::Rc;
+use stuff::{Stuff, Stuffs};
+use surface::Surface;
+
+/// Scenes with more objects than this are not surveyed: it would take longer than to render them.
+const MOST_OBJECTS: usize = 50_000;
+
+/// The triangles of meshes, for whoever has read them.
+pub trait Meshes {
+    /// The parts of a mesh; none when it was left out.
+    fn parts(&self, shape: Handle<Shape>) -> Vec<MeshPart<'_>>;
+}
+
+/// Triangles of one material.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshPart<'a> {
+    /// Vertices in the file's units.
+    pub positions: &'a [Vec3],
+    /// Three vertex indices each.
+    pub triangles: &'a [[u32; 3]],
+    /// What the file says that it is made of.
+    pub own: OwnMaterial,
+}
+
+/// What a mesh file says of a material, as far as it matters for where light can go.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum OwnMaterial {
+    /// Lets no light through.
+    Opaque,
+    /// Lets light through.
+    Clear,
+    /// Shines.
+    Shining,
+}
+
+/// A scene without meshes.
+pub(super) struct NoMeshes;
+
+impl Meshes for NoMeshes {
+    fn parts(&self, _: Handle<Shape>) -> Vec<MeshPart<'_>> {
+        Vec::new()
+    }
+}
+
+/// Notes what is doubtful about the places of things in a scene with meshes; in one without, [`check`](super::check) did.
+pub fn survey(scene: &Checked, meshes: &dyn Meshes, problems: &mut Problems) {
+    if scene.is_sound && places_meshes(scene) {
+        Check::new(scene, problems, true).survey(meshes);
+    }
+}
+
+/// Whether some object is a mesh, so that a survey has to wait for its file.
+pub(super) fn places_meshes(scene: &Scene) -> bool {
+    scene.objects.iter().any(|object| matches!(scene.shapes[object.shape].kind, ShapeKind::Mesh { .. }))
+}
+
+impl Check<'_> {
+    /// Notes what is doubtful about the places of things.
+    pub(super) fn survey(&mut self, meshes: &dyn Meshes) {
+        if self.scene.objects.len() > MOST_OBJECTS {
+            return;
+        }
+        self.any_light(meshes);
+        let survey = Survey::of(self.scene, meshes);
+        let doubts =
+            [survey.rooms(), survey.glass(), survey.open_glass(meshes), survey.aims(), survey.views()];
+        doubts.into_iter().flatten().for_each(|doubt| self.report(doubt));
+    }
+}
+
+/// Everything in its place.
+struct Survey<'a> {
+    scene: &'a Scene,
+    things: Vec<Thing<'a>>,
+    lamps: Vec<Lamp>,
+    /// Where light enters each camera.
+    eyes: Vec<Region>,
+}
+
+/// An object in its place.
+struct Thing<'a> {
+    object: &'a Object,
+    kind: &'a ShapeKind,
+    /// What holds it; `None` for endless planes.
+    region: Option<Region>,
+    /// Whether the scene gives it a material; otherwise a mesh brings its own.
+    is_painted: bool,
+    /// What it is made of.
+    stuff: Stuff,
+    /// Its inside, if it surely has one.
+    solid: Option<Solid>,
+}
+
+/// A light in its place, and the place that wrote it.
+struct Lamp {
+    reach: Reach,
+    span: Span,
+}
+
+/// Where light comes from.
+#[derive(Clone, PartialEq, Debug)]
+enum Reach {
+    /// From here.
+    Here(Region),
+    /// From infinitely far, in this direction.
+    Far(DVec3),
+    /// From infinitely far, all around.
+    Around,
+}
+
+impl<'a> Survey<'a> {
+    fn of(scene: &'a Scene, meshes: &dyn Meshes) -> Self {
+        let mut gathering =
+            Gathering { scene, meshes, stuffs: Stuffs::of(scene), surfaces: FxHashMap::default() };
+        let things: Vec<Thing> = scene.objects.iter().filter_map(|object| gathering.thing(object)).collect();
+        let mut lamps: Vec<Lamp> = scene.lights.iter().filter_map(lamp).collect();
+        let shining = things.iter().filter(|thing| thing.stuff.shines);
+        lamps.extend(shining.filter_map(|thing| {
+            Some(Lamp { reach: Reach::Here(thing.region.clone()?), span: thing.object.span })
+        }));
+        let lit = scene.environment.as_ref().filter(|environment| environment.is_lit());
+        lamps.extend(lit.map(|environment| Lamp { reach: Reach::Around, span: environment.span }));
+        Self { scene, things, lamps, eyes: scene.cameras.iter().map(Region::of_camera).collect() }
+    }
+}
+
+fn lamp(light: &crate::ir::Light) -> Option<Lamp> {
+    let reach = match light.kind {
+        LightKind::Directional { direction } => Reach::Far(-direction.value.try_normalize()?),
+        ref kind => Reach::Here(Region::of_light(kind)?),
+    };
+    Some(Lamp { reach, span: light.span })
+}
+
+/// What is at hand while the objects are gathered.
+struct Gathering<'a, 'b> {
+    scene: &'a Scene,
+    meshes: &'b dyn Meshes,
+    stuffs: Stuffs,
+    /// The closed surfaces of meshes by shape, so that those placed often are welded once.
+    surfaces: FxHashMap<usize, Option<Rc<Surface>>>,
+}
+
+impl<'a> Gathering<'a, '_> {
+    /// `None` for a mesh that was left out.
+    fn thing(&mut self, object: &'a Object) -> Option<Thing<'a>> {
+        let shape = &self.scene.shapes[object.shape];
+        let parts = self.meshes.parts(object.shape);
+        if matches!(shape.kind, ShapeKind::Mesh { .. }) && parts.is_empty() {
+            return None;
+        }
+        let own = parts.iter().map(|part| part.own);
+        let written = object.material.or(shape.material);
+        let stuff = match written {
+            Some(material) => self.stuffs.get(material),
+            None => Stuff::of_own(own),
+        };
+        let corners = || Extent::of(parts.iter().flat_map(|part| corners(part, &shape.kind)).flatten());
+        let region = Region::of_shape(&shape.kind, corners);
+        let region = region.map(|region| region.moved(&object.world_from_object));
+        let wanted = stuff.is_opaque || stuff.clear.is_some();
+        let solid = wanted.then(|| self.solid(object, &shape.kind, &parts)).flatten();
+        Some(Thing { object, kind: &shape.kind, region, is_painted: written.is_some(), stuff, solid })
+    }
+
+    fn solid(&mut self, object: &Object, kind: &ShapeKind, parts: &[MeshPart<'_>]) -> Option<Solid> {
+        let surfaces = &mut self.surfaces;
+        Solid::of(kind, &object.world_from_object, || {
+            let surface = surfaces.entry(object.shape.index());
+            surface.or_insert_with(|| closed_surface(parts, kind).map(Rc::new)).clone()
+        })
+    }
+}
+
+/// The triangles of a part of a mesh, in the shape's frame.
+fn corners<'a>(part: &MeshPart<'a>, kind: &ShapeKind) -> impl Iterator<Item = [DVec3; 3]> + use<'a> {
+    let scale = if let ShapeKind::Mesh { scale, .. } = kind { scale.value } else { 1.0 };
+    let positions = part.positions;
+    part.triangles.iter().map(move |t| t.map(|i| positions[i as usize].as_dvec3() * scale))
+}
+
+/// The surface of a mesh, if it is closed: as it is, or with its triangles turned one way.
+fn closed_surface(parts: &[MeshPart<'_>], kind: &ShapeKind) -> Option<Surface> {
+    let surface = Surface::weld_exactly(parts.iter().flat_map(|part| corners(part, kind)));
+    let seams = surface.seams();
+    match (seams.open, seams.mixed) {
+        (0, 0) => Some(surface),
+        (0, _) => match surface.closed_parts().as_slice() {
+            [(whole, _)] if whole.triangle_count() == surface.triangle_count() => Some(whole.clone()),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// The plane of an object that is endless: its normal in the world, and the distance along it.
+fn plane_of(kind: &ShapeKind, world_from_object: &DAffine3) -> Option<(DVec3, f64)> {
+    let ShapeKind::Plane { normal, offset } = kind else { return None };
+    // Normals go by the inverse transpose.
+    let to_world = world_from_object.matrix3.inverse().transpose();
+    let n = (to_world * normal.value).try_normalize()?;
+    let p = world_from_object.transform_point3(normal.value * *offset / normal.value.length_squared());
+    Some((n, n.dot(p)))
+}
+
+/// The spans of things of which every one that was placed there is in doubt, with what was said of the first.
+fn all_of_them<T>(things: impl Iterator<Item = (Span, Option<T>)>) -> Vec<(Span, T)> {
+    let mut order = Vec::new();
+    let mut said: FxHashMap<(u32, u32), Option<T>> = FxHashMap::default();
+    for (span, doubt) in things {
+        let key = (span.start, span.end);
+        match said.entry(key) {
+            std::collections::hash_map::Entry::Vacant(entry) => {
+                order.push(span);
+                entry.insert(doubt);
+            }
+            std::collections::hash_map::Entry::Occupied(mut entry) if doubt.is_none() => {
+                entry.insert(None);
+            }
+            std::collections::hash_map::Entry::Occupied(_) => {}
+        }
+    }
+    order
+        .into_iter()
+        .filter_map(|span| Some((span, said.remove(&(span.start, span.end)).flatten()?)))
+        .collect()
+}
