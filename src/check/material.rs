@@ -50,8 +50,10 @@ impl Check<'_> {
     /// Checks every material and texture that was written, placed or not.
     pub(super) fn materials(&mut self) {
         for material in self.scene.materials.iter() {
+            self.calls = &material.calls;
             self.material(material);
         }
+        self.calls = &[];
         for texture in self.scene.textures.iter() {
             self.texture(texture);
         }

@@ -13,7 +13,7 @@ mod shape;
 mod space;
 mod transform;
 
-use crate::diag::Problems;
+use crate::diag::{Problems, Trail};
 use crate::ir::{MaterialKind, Scene};
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
@@ -74,11 +74,13 @@ struct Check<'a> {
     whole: bool,
     /// Reports that were made, by code and place: what a loop or a function made many times is wrong once.
     reported: FxHashSet<(String, usize)>,
+    /// The calls that made what is looked at, the innermost first.
+    calls: &'a [Spanned<String>],
 }
 
 impl<'a> Check<'a> {
     fn new(scene: &'a Scene, problems: &'a mut Problems, whole: bool) -> Self {
-        Self { scene, problems, whole, reported: FxHashSet::default() }
+        Self { scene, problems, whole, reported: FxHashSet::default(), calls: &[] }
     }
 }
 
@@ -87,7 +89,11 @@ impl Check<'_> {
         let code = error.code().map(|code| code.to_string()).unwrap_or_default();
         let place = error.labels().and_then(|mut labels| labels.next()).map_or(0, |label| label.offset());
         if self.reported.insert((code, place)) {
-            self.problems.push(error);
+            let step = |call: &Spanned<String>| Trail {
+                span: call.span,
+                text: format!("in this call of `{}`", call.value),
+            };
+            self.problems.push_with_trail(error, self.calls.iter().map(step).collect());
         }
     }
 

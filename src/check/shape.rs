@@ -14,8 +14,10 @@ impl Check<'_> {
     /// Checks every shape that is placed.
     pub(super) fn shapes(&mut self) {
         for shape in self.scene.shapes.iter() {
+            self.calls = &shape.calls;
             self.shape(shape);
         }
+        self.calls = &[];
     }
 
     fn shape(&mut self, shape: &Shape) {

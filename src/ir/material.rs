@@ -14,6 +14,8 @@ pub struct Material {
     pub span: Span,
     /// The name that a `let` gave it.
     pub name: Option<String>,
+    /// The calls of functions in which it was made, the innermost first: the function's name, where it is called.
+    pub calls: Vec<Spanned<String>>,
 }
 
 /// A material's input: the same everywhere, or a texture. Scalar inputs are grey.

@@ -14,6 +14,8 @@ pub struct Shape {
     pub span: Span,
     /// The material written in its own block.
     pub material: Option<Handle<Material>>,
+    /// The calls of functions in which it was made, the innermost first: the function's name, where it is called.
+    pub calls: Vec<Spanned<String>>,
 }
 
 /// The kinds of shapes. Lengths in metres.

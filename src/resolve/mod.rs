@@ -171,6 +171,15 @@ impl<'a> Resolver<'a> {
         }
     }
 
+    /// The calls we are in, the innermost first.
+    fn calls_here(&self) -> Vec<Spanned<String>> {
+        let call = |step: &Step| match step {
+            Step::Call(name, span) => Some(Spanned::new(name.value.clone(), *span)),
+            Step::Turn(..) => None,
+        };
+        self.trail.iter().rev().filter_map(call).collect()
+    }
+
     /// Notes a mistake and gives the value on which everything stays silent.
     fn poison(&mut self, error: Error) -> Value<'a> {
         self.report(error);

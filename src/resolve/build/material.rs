@@ -24,7 +24,7 @@ impl<'a> Resolver<'a> {
     /// The material of a block.
     pub(super) fn material(&mut self, fields: &Fields<'a>, span: Span) -> Option<Handle<Material>> {
         let kind = self.material_kind(fields)?;
-        Some(self.scene.materials.push(Material { kind, span, name: None }))
+        Some(self.scene.materials.push(Material { kind, span, name: None, calls: self.calls_here() }))
     }
 
     fn material_kind(&mut self, fields: &Fields<'a>) -> Option<MaterialKind> {

@@ -29,7 +29,8 @@ impl<'a> Resolver<'a> {
             NodeKind::Group(self.members(body, env))
         } else {
             let kind = self.shape_kind(fields)?;
-            NodeKind::Shape(Box::new(Shape { kind, span, material }), Cell::new(None))
+            let calls = self.calls_here();
+            NodeKind::Shape(Box::new(Shape { kind, span, material, calls }), Cell::new(None))
         };
         self.node(kind, transform, material, span)
     }
