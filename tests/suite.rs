@@ -1,5 +1,6 @@
 //! All integration tests, in one binary: linking several costs more than running them.
 
+mod allow;
 mod explain;
 mod format;
 mod laws;
@@ -7,6 +8,7 @@ mod laws_geometry;
 mod laws_photon;
 mod layers;
 mod meaning;
+mod messages;
 mod readme;
 mod robust;
 mod robust_syntax;

@@ -109,7 +109,8 @@ impl Page {
     /// The first sentence.
     pub fn summary(&self) -> String {
         let opening = self.opening();
-        let end = opening.match_indices(". ").find(|(at, _)| opening[..*at].matches('`').count().is_multiple_of(2));
+        let end =
+            opening.match_indices(". ").find(|(at, _)| opening[..*at].matches('`').count().is_multiple_of(2));
         end.map_or(opening.clone(), |(at, _)| opening[..=at].to_owned())
     }
 }
