@@ -87,9 +87,9 @@ fn collect_codes(folder: &Path, codes: &mut BTreeSet<String>) {
 }
 
 /// A scene of a page, with the files that it needs.
-struct Example {
+pub struct Example {
     info: &'static str,
-    text: &'static str,
+    pub text: String,
     files: Shelf,
 }
 
@@ -101,7 +101,7 @@ struct Shelf {
 }
 
 impl Example {
-    fn of(page: &Page, which: &str) -> Self {
+    pub fn of(page: &Page, which: &str) -> Self {
         let blocks: Vec<(&str, &str)> = page
             .parts()
             .into_iter()
@@ -122,7 +122,7 @@ impl Example {
                 files.add(name, info, text);
             }
         }
-        Self { info, text, files }
+        Self { info, text: text.to_owned(), files }
     }
 
     fn flag(&self, flag: &str) -> bool {
@@ -135,7 +135,7 @@ impl Example {
     }
 
     /// The codes that are reported, and the report.
-    fn run(&self, page: &Page) -> (BTreeSet<String>, String) {
+    pub fn run(&self, page: &Page) -> (BTreeSet<String>, String) {
         let (mut problems, sources) = match page.phase() {
             "convert" => self.convert(),
             _ => self.compile(),
@@ -149,10 +149,22 @@ impl Example {
         (codes, format!("{}\n{report}", list.join(" ")))
     }
 
+    /// Where the item begins that the first report of `page` is about.
+    pub fn first_item(&self, page: &Page) -> usize {
+        let (problems, mut sources) = self.compile();
+        let report = problems.list().iter().find(|problem| problem.code() == page.code);
+        let place = report.expect("the example is broken").offset() as u32;
+        let main = sources.find(0).expect("the scene was read");
+        let program = snell::syntax::parse(&mut sources, &self.files, main, &mut Problems::default());
+        let mut items = program.files[0].items.iter().map(|item| item.span);
+        let item = items.find(|span| (span.start..span.end).contains(&place));
+        item.expect("a report is about an item").start as usize
+    }
+
     /// The way of `snell check`, or of `snell render` up to the first ray.
     fn compile(&self) -> (Problems, SourceMap) {
         let (mut sources, mut problems) = (SourceMap::default(), Problems::default());
-        let main = sources.add("scene.snell".into(), "scene.snell".into(), self.text.into());
+        let main = sources.add("scene.snell".into(), "scene.snell".into(), self.text.as_str().into());
         let main = main.expect("an example is small");
         let sets: Vec<(String, String)> = self
             .values("set")
@@ -170,7 +182,7 @@ impl Example {
         if let Some(loaded) = loaded.filter(|_| !problems.has_errors()) {
             let plan = snell::plan::plan(&loaded, camera.as_ref(), None);
             snell::plan::warn(&plan, &loaded, &mut problems);
-            snell::allow::doubt_idle(&mut problems);
+            snell::allow::doubt_idle(&sources, &mut problems);
             if let Some(camera) = camera.filter(|_| self.flag("render")) {
                 let _ = snell::lower::lower(&loaded, &plan, &camera, &self.files, &mut problems);
             }
@@ -181,9 +193,9 @@ impl Example {
     /// The way of `snell convert`.
     fn convert(&self) -> (Problems, SourceMap) {
         let (mut sources, mut problems) = (SourceMap::default(), Problems::default());
-        sources.add("scene.txt".into(), "scene.txt".into(), self.text.into());
+        sources.add("scene.txt".into(), "scene.txt".into(), self.text.as_str().into());
         let options = snell::convert::Options::default();
-        let conversion = snell::convert::convert(self.text, "scene.txt", &options, None);
+        let conversion = snell::convert::convert(&self.text, "scene.txt", &options, None);
         conversion.problems.into_iter().for_each(|problem| problems.push(problem));
         (problems, sources)
     }

@@ -1,5 +1,6 @@
 //! All integration tests, in one binary: linking several costs more than running them.
 
+mod allow;
 mod classic;
 mod doubts;
 mod explain;
@@ -9,6 +10,7 @@ mod laws_geometry;
 mod laws_photon;
 mod layers;
 mod meaning;
+mod messages;
 mod readme;
 mod reference;
 mod robust;

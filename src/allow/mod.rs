@@ -6,7 +6,7 @@ mod error;
 
 use crate::diag::{Problems, did_you_mean};
 use crate::explain::{Level, Page, find, pages};
-use crate::source::Span;
+use crate::source::{SourceMap, Span};
 pub use error::AllowError;
 
 /// Notes the `allow`s of codes that are no warnings.
@@ -16,14 +16,18 @@ pub fn check(problems: &mut Problems) {
     wrong.into_iter().for_each(|error| problems.push(error));
 }
 
-/// Notes the `allow`s that silenced nothing. Asked when every phase has spoken; where one of them found an error, the
-/// others may have been silent for that reason, and then so is this.
-pub fn doubt_idle(problems: &mut Problems) {
+/// Notes the `allow`s of the main file that silenced nothing; in other files they may be for other scenes.
+///
+/// Asked when every phase has spoken. Where one of them found an error, the others may have been silent for that reason,
+/// and then so is this.
+pub fn doubt_idle(sources: &SourceMap, problems: &mut Problems) {
     if problems.has_errors() {
         return;
     }
     problems.silence();
-    let idle = problems.allows().iter().filter(|allow| !allow.used);
+    let is_main =
+        |at: Span| sources.find(at.start).is_some_and(|id| sources.file(id).included_from.is_none());
+    let idle = problems.allows().iter().filter(|allow| !allow.used && is_main(allow.code.span));
     let idle: Vec<AllowError> = idle
         .map(|allow| AllowError::Idle { code: allow.code.value.clone(), used: allow.code.span })
         .collect();

@@ -46,8 +46,7 @@ impl Deref for Checked {
 /// `None`: something was wrong before, and nothing is left to check. Otherwise whoever goes on to render asks
 /// [`Problems::has_errors`]; whoever only looks for more mistakes need not.
 pub fn check(scene: Scene, problems: &mut Problems) -> Option<Checked> {
-    let nothing = scene.objects.is_empty() && scene.lights.is_empty() && scene.cameras.is_empty();
-    if nothing && problems.has_errors() {
+    if scene.is_empty() && problems.has_errors() {
         return None;
     }
     // What is missing may be what could not be resolved: then it is not worth a report of its own.

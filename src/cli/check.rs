@@ -48,6 +48,9 @@ fn check(session: &mut Session) {
     if let Some(loaded) = loaded.filter(|_| !session.problems.has_errors()) {
         let plan = crate::plan::plan(&loaded, checked.cameras.first(), None);
         crate::plan::warn(&plan, &loaded, &mut session.problems);
-        crate::allow::doubt_idle(&mut session.problems);
+        // What a file of definitions silences is given where they are placed.
+        if !checked.is_empty() {
+            crate::allow::doubt_idle(&session.sources, &mut session.problems);
+        }
     }
 }

@@ -45,6 +45,13 @@ pub struct Scene {
     pub names: Vec<Named>,
 }
 
+impl Scene {
+    /// Whether nothing is in it: its file holds definitions for others, or there is nothing left of it.
+    pub fn is_empty(&self) -> bool {
+        self.objects.is_empty() && self.lights.is_empty() && self.cameras.is_empty()
+    }
+}
+
 /// A shape in its place.
 #[derive(Clone, Debug)]
 pub struct Object {
