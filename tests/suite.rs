@@ -1,6 +1,7 @@
 //! All integration tests, in one binary: linking several costs more than running them.
 
 mod classic;
+mod command_line;
 mod format;
 mod laws;
 mod laws_geometry;

@@ -1,6 +1,8 @@
 //! `snell check`: every mistake of scenes, and no ray.
 
 use super::args::{MessageArgs, SceneArgs};
+use super::frames::{self, Frames};
+use super::sequence;
 use super::session::Session;
 use super::{Exit, fail};
 use clap::Args;
@@ -12,6 +14,9 @@ pub struct CheckArgs {
     /// The scenes; `-` is standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
+    /// Check these frames, each with `param frame: int` set to its number: `0..48`, `0..=47` or `17`
+    #[arg(long, value_name = "A..B", value_parser = frames::parse, allow_hyphen_values = true)]
+    frames: Option<Frames>,
     #[command(flatten)]
     scene_args: SceneArgs,
     #[command(flatten)]
@@ -29,17 +34,20 @@ pub fn run(args: &CheckArgs) -> Exit {
                 continue;
             }
         };
-        if let Some(checked) = session.compile() {
-            let loaded = crate::load::load(&checked, &session.sources, &session.files, &mut session.problems);
-            if let Some(loaded) = loaded.filter(|_| !session.problems.has_errors()) {
-                let plan = crate::plan::plan(&loaded, checked.cameras.first(), None);
-                crate::plan::warn(&plan, &loaded, &mut session.problems);
-            }
+        let found = match args.frames {
+            Some(frames) => sequence::check(&mut session, frames, &args.scene_args, &args.messages),
+            None => check(&mut session, &args.messages),
+        };
+        if exit != Exit::Usage && found != Exit::Done {
+            exit = found;
         }
-        if !session.is_good() && exit == Exit::Done {
-            exit = Exit::SceneWrong;
-        }
-        session.report(&args.messages, true);
     }
     exit
+}
+
+fn check(session: &mut Session, messages: &MessageArgs) -> Exit {
+    session.inspect();
+    let good = session.is_good();
+    session.report(messages, true);
+    if good { Exit::Done } else { Exit::SceneWrong }
 }

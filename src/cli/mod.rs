@@ -7,11 +7,13 @@ mod check;
 mod convert;
 mod doc;
 mod fmt;
+mod frames;
 mod interrupt;
 mod new;
 mod plan;
 mod progress;
 mod render;
+mod sequence;
 mod session;
 mod summary;
 
