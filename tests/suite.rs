@@ -2,6 +2,7 @@
 
 mod allow;
 mod classic;
+mod command_line;
 mod doubts;
 mod explain;
 mod format;

@@ -76,7 +76,7 @@ impl Check<'_> {
                     self.report(CheckError::OutOfRange { what, found, range, example, used });
                 }
                 if let Some(focus) = focus {
-                    self.focus(camera, focus);
+                    self.focus(camera, focus, *focal_length);
                 }
             }
         }
@@ -132,15 +132,22 @@ impl Check<'_> {
         }
     }
 
-    fn focus(&mut self, camera: &Camera, focus: &Spanned<Focus>) {
+    fn focus(&mut self, camera: &Camera, focus: &Spanned<Focus>, focal_length: Option<Spanned<f64>>) {
         let distance = match &focus.value {
             Focus::Distance(distance) => *distance,
-            Focus::Point(point) => (*point - camera.position.value).dot(camera.direction.value),
+            Focus::Point(point) => (*point - camera.position.value).dot(camera.direction.normalize_or_zero()),
             Focus::On(id, name) => return self.focus_on(*id, name, focus.span),
         };
         // A camera that looks nowhere has nothing behind it, and has its own report.
         if distance <= 0.0 && camera.direction.value != DVec3::ZERO {
             self.report(CheckError::FocusBehind { focus: focus.span, position: camera.position.span });
+        } else if let Some(length) = focal_length.filter(|length| 0.0 < distance && distance <= length.value)
+        {
+            // 1/f = 1/distance + 1/image: at f and nearer there is no image.
+            let rounded = (distance * 1e6).round() / 1e6;
+            let (focal, found) = (Type::Length.write(length.value), Type::Length.write(rounded));
+            let (focus, focal_length) = (focus.span, length.span);
+            self.report(CheckError::FocusTooNear { focal, found, focus, focal_length });
         }
     }
 

@@ -48,6 +48,24 @@ impl Check<'_> {
         }
     }
 
+    /// A hole lies inside of its outline.
+    pub(super) fn hole(&mut self, outline: &Curve, hole: &Curve) {
+        let (around, points) = (flatten(outline, true), flatten(hole, true));
+        if around.len() < 3 || points.len() < 3 || around.len() * points.len() > MOST_PIECES * MOST_PIECES {
+            return;
+        }
+        let size = around.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
+        // A corner that lies on the outline is neither inside nor outside.
+        let is_decided = |p: &&DVec2| distance_to(&around, **p) > 1e-9 * size;
+        let inside: Vec<bool> = points.iter().filter(is_decided).map(|p| holds(&around, *p)).collect();
+        let how = match (inside.contains(&true), inside.contains(&false)) {
+            (true, true) => "crosses",
+            (false, true) => "lies outside of",
+            _ => return,
+        };
+        self.report(CheckError::HoleOutside { how, hole: hole.span, outline: outline.span });
+    }
+
     /// Whether there are as many points as the kind of curve needs.
     fn points(&mut self, curve: &Curve, least_of_lines: usize) -> bool {
         let n = curve.points.len();
@@ -138,6 +156,27 @@ fn bspline([a, b, c, d]: [DVec2; 4], t: f64) -> DVec2 {
     (a * weights[0] + b * weights[1] + c * weights[2] + d * weights[3]) / 6.0
 }
 
+/// Whether a point lies inside a closed polygon: whether a ray from it crosses an odd number of edges.
+fn holds(polygon: &[DVec2], p: DVec2) -> bool {
+    let next = polygon.iter().cycle().skip(1);
+    let crosses = |&(a, b): &(&DVec2, &DVec2)| {
+        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)
+    };
+    polygon.iter().zip(next).filter(crosses).count() % 2 == 1
+}
+
+/// The distance of a point from the edges of a closed polygon.
+fn distance_to(polygon: &[DVec2], p: DVec2) -> f64 {
+    let next = polygon.iter().cycle().skip(1);
+    let to_edge = |(a, b): (&DVec2, &DVec2)| {
+        let along = *b - *a;
+        let length = along.length_squared();
+        let t = if length > 0.0 { ((p - *a).dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+        (*a + along * t).distance(p)
+    };
+    polygon.iter().zip(next).map(to_edge).fold(f64::INFINITY, f64::min)
+}
+
 /// The signed area of a polygon (the shoelace formula).
 fn area(points: &[DVec2]) -> f64 {
     let next = points.iter().cycle().skip(1);
@@ -177,6 +216,14 @@ mod tests {
         assert_eq!(crossing(&flatten(&bow, true)), Some(0));
         assert_eq!(crossing(&flatten(&square, true)), None);
         assert_eq!(area(&square.points), 1.0);
+    }
+
+    #[test]
+    fn a_point_is_inside_or_at_a_distance() {
+        let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(DVec2::from_array);
+        assert!(holds(&square, DVec2::new(1.0, 0.5)) && !holds(&square, DVec2::new(3.0, 0.5)));
+        assert_eq!(distance_to(&square, DVec2::new(1.0, 0.5)), 0.5);
+        assert_eq!(distance_to(&square, DVec2::new(5.0, 6.0)), 5.0);
     }
 
     #[test]

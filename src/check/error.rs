@@ -68,6 +68,18 @@ pub enum CheckError {
         #[label("crosses the axis")]
         used: Span,
     },
+    #[error("this hole {how} the outline that it is cut out of")]
+    #[diagnostic(
+        code(snell::check::hole_outside),
+        help("move it inside: what lies outside cannot be cut out")
+    )]
+    HoleOutside {
+        how: &'static str,
+        #[label("the hole")]
+        hole: Span,
+        #[label("the outline")]
+        outline: Span,
+    },
     #[error("the outline crosses itself")]
     #[diagnostic(
         code(snell::check::crossing_outline),
@@ -421,6 +433,19 @@ pub enum CheckError {
     TooSmallToSee {
         #[label("the camera is here")]
         position: Span,
+    },
+    #[error("a lens of {focal} cannot focus at {found}: what is nearer than its focal length has no image")]
+    #[diagnostic(
+        code(snell::check::focus_too_near),
+        help("focus further away than {focal}, or take a shorter focal length")
+    )]
+    FocusTooNear {
+        focal: String,
+        found: String,
+        #[label("focused here")]
+        focus: Span,
+        #[label("the focal length")]
+        focal_length: Span,
     },
     #[error("the scene has no camera")]
     #[diagnostic(

@@ -58,7 +58,10 @@ impl Check<'_> {
             ShapeKind::Extrude { outline, holes, depth } => {
                 self.positive("the depth of this extrude", *depth, Type::Length);
                 self.outline(outline);
-                holes.iter().for_each(|hole| self.outline(hole));
+                for hole in holes {
+                    self.outline(hole);
+                    self.hole(outline, hole);
+                }
             }
         }
     }

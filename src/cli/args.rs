@@ -41,6 +41,13 @@ pub struct MessageArgs {
     pub quiet: bool,
 }
 
+impl MessageArgs {
+    /// Whether messages are read by programs, a line each.
+    pub fn is_for_programs(&self) -> bool {
+        self.message_format == MessageFormat::Json
+    }
+}
+
 /// The forms of diagnostics.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 pub enum MessageFormat {

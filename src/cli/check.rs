@@ -2,7 +2,9 @@
 
 use super::Exit;
 use super::args::{MessageArgs, SceneArgs};
+use super::frames::{self, Frames};
 use super::messages::Messages;
+use super::sequence;
 use super::session::Session;
 use clap::Args;
 use std::path::PathBuf;
@@ -13,6 +15,9 @@ pub struct CheckArgs {
     /// The scenes; `-` is standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
+    /// Check these frames, each with `param frame: int` set to its number: `0..48`, `0..=47` or `17`
+    #[arg(long, value_name = "A..B", value_parser = frames::parse, allow_hyphen_values = true)]
+    frames: Option<Frames>,
     #[command(flatten)]
     scene_args: SceneArgs,
     #[command(flatten)]
@@ -31,26 +36,22 @@ pub fn run(args: &CheckArgs) -> Exit {
                 continue;
             }
         };
-        check(&mut session);
-        if !session.is_good() && exit == Exit::Done {
-            exit = Exit::SceneWrong;
+        let found = match args.frames {
+            Some(frames) => sequence::check(&mut session, frames, &args.scene_args, &mut messages),
+            None => check(&mut session, &mut messages),
+        };
+        if exit != Exit::Usage && found != Exit::Done {
+            exit = found;
         }
-        session.report(&mut messages);
     }
     messages.finish();
     exit
 }
 
-/// All that can be said of a scene without shooting a ray.
-fn check(session: &mut Session) {
-    let Some(checked) = session.compile() else { return };
-    let loaded = crate::load::load(&checked, &session.sources, &session.files, &mut session.problems);
-    if let Some(loaded) = loaded.filter(|_| !session.problems.has_errors()) {
-        let plan = crate::plan::plan(&loaded, checked.cameras.first(), None);
-        crate::plan::warn(&plan, &loaded, &mut session.problems);
-        // What a file of definitions silences is given where they are placed.
-        if !checked.is_empty() {
-            crate::allow::doubt_idle(&session.sources, &mut session.problems);
-        }
-    }
+/// Checks a scene as it is.
+fn check(session: &mut Session, messages: &mut Messages<'_>) -> Exit {
+    session.inspect();
+    let good = session.is_good();
+    session.report(messages);
+    if good { Exit::Done } else { Exit::SceneWrong }
 }

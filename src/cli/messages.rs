@@ -23,6 +23,11 @@ impl<'a> Messages<'a> {
         Self { args, as_result, waiting: Vec::new(), troubles: Vec::new() }
     }
 
+    /// The form that was asked for.
+    pub fn args(&self) -> &'a MessageArgs {
+        self.args
+    }
+
     /// Shows a report; one of warnings alone only where something may be said. `deny` makes them matter.
     pub fn show(&mut self, report: Report, deny: Option<Deny>) {
         let is_denied = deny.is_some() && report.warning_count() > 0;

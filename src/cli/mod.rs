@@ -8,12 +8,14 @@ mod convert;
 mod doc;
 mod explain;
 mod fmt;
+mod frames;
 mod interrupt;
 mod messages;
 mod new;
 mod plan;
 mod progress;
 mod render;
+mod sequence;
 mod session;
 mod summary;
 

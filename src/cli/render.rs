@@ -1,7 +1,9 @@
 //! `snell render`: from a scene to a picture.
 
 use super::args::{self, MessageArgs, Method, SceneArgs};
+use super::frames::{self, Frames};
 use super::progress::Bar;
+use super::sequence;
 use super::session::Session;
 use super::summary::Summary;
 use super::{Exit, fail, interrupt, note};
@@ -22,11 +24,17 @@ pub struct RenderArgs {
     /// The scene; `-` is standard input
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// Write the picture here: .png, .exr, .hdr or .ppm; may be repeated [default: the scene's name with .png]
+    /// Write the picture here: .png, .exr, .hdr or .ppm; may be repeated [default: the scene's name with .png]. With
+    /// `--frames`, `{frame:04}` in it stands for the number with at least four digits; without, `.0017` goes before the
+    /// extension
     #[arg(short, long = "output", value_name = "FILE")]
     outputs: Vec<PathBuf>,
+    /// Render these frames, each with `param frame: int` set to its number: `0..48`, `0..=47` or `17`. All are checked
+    /// before the first is rendered
+    #[arg(long, value_name = "A..B", value_parser = frames::parse, allow_hyphen_values = true)]
+    frames: Option<Frames>,
     #[command(flatten)]
-    scene_args: SceneArgs,
+    pub(super) scene_args: SceneArgs,
     /// Look through this camera
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
@@ -58,55 +66,108 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
     #[command(flatten)]
-    messages: MessageArgs,
+    pub(super) messages: MessageArgs,
 }
 
 /// Passes of a scene that does not say when to stop.
 const DEFAULT_PASSES: u32 = 64;
 
-/// Renders a scene.
+/// Renders a scene, or each frame of it.
 pub fn run(args: &RenderArgs) -> Exit {
-    let start = Instant::now();
     let mut session = match Session::open(&args.scene, &args.scene_args) {
         Ok(session) => session,
         Err(reason) => return fail(reason),
     };
-    // What can be wrong with the command is said before any work is done.
-    let mut targets = match open_targets(args) {
-        Ok(targets) => targets,
-        Err(reason) => return fail(reason),
-    };
+    if let Err(reason) = args.report.as_deref().map_or(Ok(()), writable) {
+        return fail(reason);
+    }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(args.threads.unwrap_or(0))).build();
     let pool = match pool {
         Ok(pool) => pool,
         Err(error) => return fail(format_args!("threads cannot be started: {error}")),
     };
+    match args.frames {
+        Some(frames) => sequence::render(args, &mut session, frames, &pool),
+        None => {
+            // What can be wrong with the command is said before any work is done.
+            let rendered = open_targets(&output_names(args))
+                .map_err(fail)
+                .and_then(|targets| one(args, &mut session, targets, &pool));
+            rendered.map_or_else(|exit| exit, |rendered| conclude(args, &rendered))
+        }
+    }
+}
 
+/// A picture that was made, and all that is known about it.
+pub struct Rendered {
+    scene: String,
+    files: Vec<String>,
+    ready: Ready,
+    outcome: Outcome,
+}
+
+impl Rendered {
+    fn summary(&self) -> Summary<'_> {
+        Summary {
+            scene: &self.scene,
+            files: &self.files,
+            plan: &self.ready.plan,
+            method: &self.ready.lowered.method,
+            outcome: &self.outcome,
+            compile_seconds: self.ready.compile_seconds,
+            build_seconds: self.ready.build_seconds,
+        }
+    }
+
+    /// All of it on one line.
+    pub fn line(&self) -> String {
+        self.summary().line()
+    }
+
+    /// For programs.
+    pub fn json(&self) -> serde_json::Value {
+        self.summary().json()
+    }
+
+    /// Whether someone asked to stop before it was done.
+    pub fn is_interrupted(&self) -> bool {
+        self.outcome.stopped_by == StoppedBy::Cancelled
+    }
+}
+
+/// Compiles and renders a scene once. What goes wrong is said; the error is how the command ends then.
+pub fn one(
+    args: &RenderArgs,
+    session: &mut Session,
+    mut targets: Vec<Target>,
+    pool: &rayon::ThreadPool,
+) -> Result<Rendered, Exit> {
+    let start = Instant::now();
     let ready = session.compile().and_then(|checked| {
         let camera = session.camera(&checked, args.camera.as_deref())?.clone();
-        pool.install(|| make_ready(checked, camera, args, &mut session, start))
+        pool.install(|| make_ready(checked, camera, args, session, start))
     });
     let good = session.is_good();
-    session.report_alone(&args.messages);
-    let Some(ready) = ready.filter(|_| good) else { return Exit::SceneWrong };
-    if let Err(reason) = ready.reason_not_to_start(args, &targets) {
-        return fail(reason);
+    if args.frames.is_none() || !good {
+        session.report_alone(&args.messages); // warnings of frames were told when they were checked
     }
+    let ready = ready.filter(|_| good).ok_or(Exit::SceneWrong)?;
+    ready.reason_not_to_start(args, &targets).map_err(fail)?;
 
     interrupt::listen();
     let bar = Bar::new(ready.settings.stop, args.messages.quiet);
     let outcome = pool.install(|| crate::render::render(&ready.lowered.world, &ready.settings, &bar));
     bar.finish();
 
-    let written = if outcome.stats.passes == 0 {
-        Ok(Vec::new()) // nothing was seen: no picture is better than a black one
+    let paths: Vec<PathBuf> = if outcome.stats.passes == 0 {
+        Vec::new() // nothing was seen: no picture is better than a black one
     } else {
-        write(&mut targets, &outcome, &ready).and_then(|()| targets.into_iter().map(Target::finish).collect())
+        write(&mut targets, &outcome, &ready)
+            .and_then(|()| targets.into_iter().map(Target::finish).collect())
+            .map_err(fail)?
     };
-    match written {
-        Ok(paths) => conclude(args, &session.name, &paths, &ready, &outcome),
-        Err(error) => fail(error),
-    }
+    let files = paths.iter().map(|path| path.display().to_string()).collect();
+    Ok(Rendered { scene: session.name.clone(), files, ready, outcome })
 }
 
 /// A scene ready to be rendered.
@@ -222,17 +283,22 @@ impl Ready {
     }
 }
 
-fn open_targets(args: &RenderArgs) -> Result<Vec<Target>, String> {
+/// Where the pictures go: what `-o` says, or the scene's name.
+pub fn output_names(args: &RenderArgs) -> Vec<PathBuf> {
     let default = || match args.scene.to_str() {
-        Some("-") => vec![PathBuf::from("out.png")],
-        _ => vec![args.scene.with_extension("png")],
+        Some("-") => PathBuf::from("out.png"),
+        _ => args.scene.with_extension("png"),
     };
-    let paths = if args.outputs.is_empty() { default() } else { args.outputs.clone() };
+    if args.outputs.is_empty() { vec![default()] } else { args.outputs.clone() }
+}
+
+/// Makes sure that the pictures can be written.
+///
+/// # Errors
+/// Why one cannot, in a sentence.
+pub fn open_targets(paths: &[PathBuf]) -> Result<Vec<Target>, String> {
     if paths.iter().any(|path| path.as_os_str() == "-") {
         return Err("a picture does not go to standard output: name a file with `-o`".to_owned());
-    }
-    if let Some(report) = &args.report {
-        writable(report)?;
     }
     paths.iter().map(|path| Target::open(path).map_err(|error| error.to_string())).collect()
 }
@@ -279,27 +345,26 @@ fn write(targets: &mut [Target], outcome: &Outcome, ready: &Ready) -> Result<(),
     targets.iter_mut().try_for_each(|target| target.write(&frame, &display))
 }
 
-fn conclude(args: &RenderArgs, scene: &str, files: &[PathBuf], ready: &Ready, outcome: &Outcome) -> Exit {
-    let files: Vec<String> = files.iter().map(|path| path.display().to_string()).collect();
-    let summary = Summary {
-        scene,
-        files: &files,
-        plan: &ready.plan,
-        method: &ready.lowered.method,
-        outcome,
-        compile_seconds: ready.compile_seconds,
-        build_seconds: ready.build_seconds,
-    };
+fn conclude(args: &RenderArgs, rendered: &Rendered) -> Exit {
+    let summary = rendered.summary();
     if !args.messages.quiet {
         note(summary.human());
     }
-    if let Some(path) = &args.report {
-        let text = format!("{:#}\n", summary.json());
-        if let Err(error) = crate::output::replace(path, text.as_bytes()) {
-            return fail(error);
-        }
+    if let Err(error) = write_report(args, &summary.json()) {
+        return fail(error);
     }
-    if outcome.stopped_by == StoppedBy::Cancelled { Exit::Interrupted } else { Exit::Done }
+    if rendered.is_interrupted() { Exit::Interrupted } else { Exit::Done }
+}
+
+/// Writes the facts where `--report` says.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write_report(args: &RenderArgs, facts: &serde_json::Value) -> Result<(), crate::output::OutputError> {
+    match &args.report {
+        Some(path) => crate::output::replace(path, format!("{facts:#}\n").as_bytes()),
+        None => Ok(()),
+    }
 }
 
 /// `X,Y,W,H`.

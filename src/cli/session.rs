@@ -58,6 +58,32 @@ impl Session {
         crate::resolve::survey(&program, &self.sources, &mut self.problems)
     }
 
+    /// Compiles the text and loads what it names, for all that is wrong with it.
+    pub fn inspect(&mut self) {
+        let Some(checked) = self.compile() else { return };
+        let loaded = crate::load::load(&checked, &self.sources, &self.files, &mut self.problems);
+        if let Some(loaded) = loaded.filter(|_| !self.problems.has_errors()) {
+            let plan = crate::plan::plan(&loaded, checked.cameras.first(), None);
+            crate::plan::warn(&plan, &loaded, &mut self.problems);
+            // What a file of definitions silences is given where they are placed.
+            if !checked.is_empty() {
+                crate::allow::doubt_idle(&self.sources, &mut self.problems);
+            }
+        }
+    }
+
+    /// The same scene with one parameter more, as if it was opened anew.
+    pub fn with_set(&self, name: &str, value: &str) -> Self {
+        let main = self.sources.file(self.main);
+        let mut sources = SourceMap::default();
+        let main = sources.add(main.name.clone(), main.path.clone(), main.text.clone());
+        let main = main.expect("the text had its place before");
+        let mut sets = self.sets.clone();
+        sets.push((name.to_owned(), value.to_owned()));
+        let (files, name) = (self.files.clone(), self.name.clone());
+        Self { sources, files, problems: Problems::default(), name, main, sets, deny: self.deny }
+    }
+
     /// The camera that the scene is seen through: the one asked for, or the first.
     pub fn camera<'a>(&mut self, scene: &'a Checked, wanted: Option<&str>) -> Option<&'a Camera> {
         crate::check::camera(scene, wanted, self.sources.file(self.main).span(), &mut self.problems)

@@ -66,6 +66,16 @@ impl Summary<'_> {
         out
     }
 
+    /// For people, on one line.
+    pub fn line(&self) -> String {
+        let stats = &self.outcome.stats;
+        let files = if self.files.is_empty() { "nothing written".to_owned() } else { self.files.join(", ") };
+        let error = self.outcome.error.map_or(String::new(), |e| format!(", error {}", percent(e.error)));
+        let seconds = duration(self.compile_seconds + self.build_seconds + stats.seconds);
+        let passes = count(u64::from(stats.passes));
+        format!("{files}, {passes} passes in {seconds}{error}{}", self.stop_text())
+    }
+
     /// For programs.
     pub fn json(&self) -> Value {
         let stats = &self.outcome.stats;

@@ -84,6 +84,12 @@ impl Problems {
         self.error_count > 0
     }
 
+    /// Keeps the problems for which `keep` says so.
+    pub fn retain(&mut self, keep: impl FnMut(&Problem) -> bool) {
+        self.list.retain(keep);
+        self.error_count = self.list.iter().filter(|problem| problem.severity() == Severity::Error).count();
+    }
+
     /// What was noted, in the order of noting.
     pub fn list(&self) -> &[Problem] {
         &self.list

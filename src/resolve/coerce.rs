@@ -27,6 +27,16 @@ impl<'a> Resolver<'a> {
                 let block = schema::block("classic").expect("declared in the registry");
                 Value::Block(std::rc::Rc::new(self.read(block, object.kind.span, &object.body, env)))
             }
+            // A text that lost its quotes, as in `file: teapot.obj`.
+            (Type::Text, ExprKind::Access { base, .. }) if self.is_unknown(base, env) => {
+                let text = self.text(expr.span);
+                let help = format!("put it in quotes: `\"{text}\"`");
+                self.wrong_type("a text in quotes", "no text", expr.span, &help)
+            }
+            (Type::Block(kind), ExprKind::Object(object)) if object.kind.value == kind => {
+                let block = schema::block(kind).expect("types name declared blocks");
+                Value::Block(std::rc::Rc::new(self.read(block, object.kind.span, &object.body, env)))
+            }
             (Type::Block(kind), ExprKind::Block(body)) => {
                 let block = schema::block(kind).expect("types name declared blocks");
                 Value::Block(std::rc::Rc::new(self.read(block, body.span, body, env)))
@@ -39,6 +49,11 @@ impl<'a> Resolver<'a> {
                 self.coerce(value, ty, expr.span)
             }
         }
+    }
+
+    /// Whether an expression is a name that nothing defines.
+    fn is_unknown(&self, expr: &Expr, env: &Env<'a>) -> bool {
+        matches!(&expr.kind, ExprKind::Name(name) if env.find(name).is_none())
     }
 
     /// Each part as `ty`, so that a report points at the part.
@@ -65,8 +80,15 @@ impl<'a> Resolver<'a> {
             (Type::Lens, "pinhole") => lens(self, "pinhole"),
             (Type::Lens, "thin") => lens(self, "thin"),
             (Type::Material, _) => self.unknown_material(name, used, env),
-            (Type::Filter | Type::Projection | Type::Lens, _) if builtin::find(name).is_none() => {
-                let help = format!("write for example `{}`", ty.example());
+            (Type::Bool, "yes" | "no" | "off") => {
+                let help = format!("write `{}`", name == "yes");
+                self.poison(Error::UnknownWord { word: name.to_owned(), wanted: ty.noun(), used, help })
+            }
+            (Type::Filter | Type::Projection | Type::Lens | Type::Exposure, _)
+                if builtin::find(name).is_none() =>
+            {
+                let help = did_you_mean(name, WORDS.iter().copied().filter(|word| is_word_of(ty, word)))
+                    .unwrap_or_else(|| format!("write for example `{}`", ty.example()));
                 self.poison(Error::UnknownWord { word: name.to_owned(), wanted: ty.noun(), used, help })
             }
             _ => {
@@ -222,6 +244,11 @@ impl<'a> Resolver<'a> {
     pub(super) fn refuse(&mut self, value: &Value<'a>, ty: Type, used: Span) -> Value<'a> {
         let (wanted, text, found) = (ty.noun(), self.text(used), value.noun());
         let help = match (ty, value) {
+            (Type::Material, Value::Color(_)) if metals().contains(&text.as_str()) => {
+                format!(
+                    "for the metal write `metal {{ kind: {text} }}`, for the colour `diffuse {{ color: {text} }}`"
+                )
+            }
             (Type::Material, Value::Color(_)) => format!("make it a material: `diffuse {{ color: {text} }}`"),
             (Type::Material, Value::Texture(_)) => {
                 "put it into a material: `diffuse { color: .. }`".to_owned()
@@ -229,7 +256,14 @@ impl<'a> Resolver<'a> {
             (Type::Color | Type::ColorInput | Type::LightColor, Value::Tuple(_)) => {
                 format!("write `rgb{text}`")
             }
-            (Type::Object, Value::Function(_)) => format!("call it: `{text}(..)`"),
+            (_, Value::Function(_)) => format!("call it: `{text}(..)`"),
+            (_, Value::Builtin(builtin)) => format!("call it, as in `{}`", builtin.function.example),
+            (Type::Point | Type::Offset | Type::Vector, Value::List(_)) => {
+                format!("points stand in parentheses: `({})`", text.trim_matches(['[', ']']))
+            }
+            (Type::Size, Value::Tuple(parts)) if let [Value::Number(w), Value::Number(h)] = parts[..] => {
+                format!("write `{} x {}`", w.value, h.value)
+            }
             (Type::Curve, Value::List(_)) => format!("say how to join the points: `polyline {text}`"),
             (Type::Outline, Value::List(_)) => format!("say how to join the points: `polygon {text}`"),
             _ => format!("write {}, such as `{}`", ty.noun(), ty.example()),
@@ -262,6 +296,9 @@ pub fn unknown_word(word: &str, words: &'static [&'static str], used: Span) -> E
     Error::UnknownWord { word: word.to_owned(), wanted, used, help }
 }
 
+/// Words that mean something where some type or other is wanted.
+const WORDS: [&str; 4] = ["auto", "uv", "pinhole", "thin"];
+
 /// Whether a word means something where this type is wanted, whatever the scene defines.
 pub fn is_word_of(ty: Type, word: &str) -> bool {
     match ty {
@@ -271,6 +308,12 @@ pub fn is_word_of(ty: Type, word: &str) -> bool {
         Type::Lens => ["pinhole", "thin"].contains(&word),
         _ => false,
     }
+}
+
+/// Metals that have names.
+fn metals() -> &'static [&'static str] {
+    let kind = schema::block("metal").and_then(|metal| metal.field("kind"));
+    kind.and_then(|kind| kind.ty.words()).unwrap_or_default()
 }
 
 fn find_word(words: &'static [&'static str], name: &str) -> Option<&'static str> {

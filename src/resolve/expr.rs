@@ -94,6 +94,9 @@ impl<'a> Resolver<'a> {
         if let Some(color) = color::named(name) {
             return Value::Color(color);
         }
+        if let Some(error) = later(name, used) {
+            return self.poison(error);
+        }
         let help = self.unknown_name_help(name, env);
         self.poison(Error::UnknownName { name: name.to_owned(), used, help })
     }
@@ -363,6 +366,16 @@ impl<'a> Resolver<'a> {
             }
         }
     }
+}
+
+/// The report of a function that the language will have later.
+fn later(name: &str, used: Span) -> Option<Error> {
+    let instead = match name {
+        "moving" => "things stand still in this version: write one transform",
+        "mitchell" | "blackman_harris" => "use `gaussian(1.5px)`",
+        _ => return None,
+    };
+    Some(Error::NotYet { word: name.to_owned(), used, help: instead.to_owned() })
 }
 
 /// The report of a unit that there is not.

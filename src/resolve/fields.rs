@@ -9,6 +9,7 @@ use crate::math::{DVec3, Rgb};
 use crate::schema::{self, Field, Literal, Need};
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::{Block, Entry, Name};
+use std::rc::Rc;
 
 /// A block with nothing in it.
 pub static EMPTY: Block = Block { entries: Vec::new(), span: Span::new(0, 0), poisoned: false };
@@ -34,6 +35,8 @@ impl<'a> Resolver<'a> {
         env: &Env<'a>,
     ) -> Fields<'a> {
         let mut fields = Fields { poisoned: body.poisoned, ..Fields::empty(block, head) };
+        // A definition among fields is misplaced; what uses it is not wrong once more.
+        let scope = if block.holds_items() { Rc::clone(env) } else { self.scope_of(body, env) };
         let mut names: Vec<Option<&Name>> = vec![None; block.field_count()];
         for entry in &body.entries {
             match entry {
@@ -48,7 +51,7 @@ impl<'a> Resolver<'a> {
                         continue;
                     }
                     names[index] = Some(&field.name);
-                    let value = self.eval_as(&field.value, declared.ty, env);
+                    let value = self.eval_as(&field.value, declared.ty, &scope);
                     let value = self.in_range(value, declared, field.value.span);
                     fields.poisoned |= value.is_poison();
                     fields.slots[index] = Some(Spanned::new(value, field.value.span));

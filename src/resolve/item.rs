@@ -13,7 +13,7 @@ use crate::syntax::ast::{Block, Entry, Expr, ExprKind, FileIndex, Item, ItemKind
 use std::rc::Rc;
 
 /// Where items stand that belong to the top level.
-const INSIDE: &str = "inside of something";
+const INSIDE: &str = "in a block";
 /// What to do about them.
 const TO_TOP: &str = "move it to the top level";
 
@@ -335,6 +335,9 @@ impl<'a> Resolver<'a> {
         let help = match item.kind {
             ItemKind::Object(_) => {
                 "a field has a name before its value: `material: diffuse { .. }`".to_owned()
+            }
+            ItemKind::Let { .. } | ItemKind::Fn(_) | ItemKind::Param { .. } => {
+                "move the definition before the block".to_owned()
             }
             _ => format!("a field is written `name: value`, as in `{}`", block.example),
         };

@@ -209,7 +209,11 @@ impl<'a> Resolver<'a> {
 
     /// Warns of definitions that nothing uses, unless a misspelt name may have meant them.
     fn report_unused(&mut self, mut unused: Vec<lint::Unused<'a>>) {
-        unused.retain(|found| !self.proposed.contains(found.name));
+        let root = self.root(FileIndex(0));
+        let is_wrong = |name: &str| {
+            root.own(name).is_some_and(|own| matches!(&*own.state.borrow(), State::Done(Value::Poison)))
+        };
+        unused.retain(|found| !self.proposed.contains(found.name) && !is_wrong(found.name));
         for found in unused {
             self.report(found.error());
         }
@@ -351,10 +355,16 @@ impl<'a> Resolver<'a> {
     fn read_units(&mut self) {
         let program = self.program;
         for (index, file) in program.files.iter().enumerate() {
+            let mut first = None;
             for item in &file.items {
-                if let ItemKind::Units(block) = &item.kind {
-                    self.read_units_block(index, block, item.span);
+                let ItemKind::Units(block) = &item.kind else { continue };
+                match first {
+                    Some(first) => {
+                        self.report(Error::SecondBlock { kind: "units", second: item.span, first });
+                    }
+                    None => self.read_units_block(index, block, item.span),
                 }
+                first.get_or_insert(item.span);
             }
         }
     }

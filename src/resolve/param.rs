@@ -1,5 +1,6 @@
 //! Parameters: values that the command line may replace.
 
+use super::dimension::{Dimension, Quantity};
 use super::error::Error;
 use super::scope::{Definition, Kind, Scope};
 use super::{Env, Resolver, Setting, Value};
@@ -79,10 +80,20 @@ impl<'a> Resolver<'a> {
         env: &Env<'a>,
     ) -> Option<(f64, f64, bool, Span)> {
         match self.eval(range, env) {
+            Value::Range(..) if Dimension::of(ty).is_none() => {
+                let help = "take the range away: only numbers have one";
+                self.wrong_type("nothing", "a range", range.span, help);
+                None
+            }
             Value::Range(start, end, inclusive) => {
                 let start = self.coerce(Value::Number(start), ty, range.span);
                 let end = self.coerce(Value::Number(end), ty, range.span);
                 match (start, end) {
+                    (Value::Number(start), Value::Number(end)) if is_empty(start, end, inclusive) => {
+                        let help = "write the smaller end first, and `..=` to take the end in";
+                        self.wrong_type("a range that holds something", "an empty range", range.span, help);
+                        None
+                    }
                     (Value::Number(start), Value::Number(end)) => {
                         Some((start.value, end.value, inclusive, range.span))
                     }
@@ -122,4 +133,9 @@ impl<'a> Resolver<'a> {
         let help = format!("write for example `{}`, or widen the range", ty.write(nearest));
         self.poison(Error::OutOfRange { field, range, found, used, said: Some(said), help })
     }
+}
+
+/// Whether no value lies in a range.
+fn is_empty(start: Quantity, end: Quantity, inclusive: bool) -> bool {
+    if inclusive { start.value > end.value } else { start.value >= end.value }
 }

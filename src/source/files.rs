@@ -37,6 +37,7 @@ pub trait Files: Send + Sync {
 }
 
 /// The file system, seen from a scene: its folder and the asset folders, and nothing outside unless allowed.
+#[derive(Clone)]
 pub struct Disk {
     root: PathBuf,
     asset_dirs: Vec<PathBuf>,

@@ -51,6 +51,11 @@ impl<'a> Resolver<'a> {
         let (kind, head) = kind_of(object);
         match schema::block(&kind).filter(|block| block.area != Area::Item && block.area != Area::Render) {
             Some(block) if kind == "environment" => self.misplaced_block(block, head),
+            Some(block) if kind == "film" => self.misplaced_part(block, "camera", head),
+            None if kind == "photons" || kind == "classic" => {
+                let block = schema::block(&kind).expect("declared in the registry");
+                self.misplaced_part(block, "render", head)
+            }
             Some(block) => self.block(block, head, &object.body, env),
             None => self.no_such_block(object, &kind, head, env),
         }
@@ -81,6 +86,18 @@ impl<'a> Resolver<'a> {
         let what = format!("`{}`", block.kind);
         let help = "it is an item: write it at the top level".to_owned();
         self.poison(Error::Misplaced { what, place: "where a value is wanted", used, help })
+    }
+
+    /// A block that stands in a field of another, outside of it.
+    fn misplaced_part(&mut self, block: &schema::Block, owner: &str, used: Span) -> Value<'a> {
+        let whole = schema::block(owner).expect("declared in the registry");
+        let field = whole.fields().find(|field| field.ty.takes(block)).map_or("", |field| field.name);
+        let what = format!("`{}`", block.kind);
+        let help = format!(
+            "it belongs into `{owner}`: `{field}: {}`",
+            block.example.trim_start_matches("film: ").trim_start_matches("photons: ")
+        );
+        self.poison(Error::Misplaced { what, place: "alone", used, help })
     }
 
     /// A block of no known kind. What its fields hold is looked at all the same.
