@@ -2,6 +2,7 @@
 
 mod doubts;
 mod format;
+mod fuzz;
 mod laws;
 mod laws_geometry;
 mod laws_photon;
