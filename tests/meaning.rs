@@ -2,6 +2,7 @@
 //!
 //! To add a case, add a scene, and run once with `UPDATE=1`.
 
+use crate::doubts::look;
 use snell::diag::{Problems, Report, Style};
 use snell::ir::{Scene, dump::dump};
 use snell::source::{Disk, SourceMap, Spanned};
@@ -40,6 +41,14 @@ fn compile(path: &Path, sets: &[(&str, &str)]) -> (Scene, Report) {
     (copy, Report::new(problems, &sources))
 }
 
+/// The phases whose mistakes have scenes here.
+const PHASES: [&str; 4] = ["resolve", "check", "load", "plan"];
+
+/// What is said of a scene: of its words alone, or with files and method.
+fn report(phase: &str, path: &Path) -> Report {
+    if phase == "resolve" { compile(path, &[]).1 } else { look(path) }
+}
+
 /// Compares `said` with the file at `path`, or writes it there; what differs is added to `differences`.
 fn compare(path: &Path, said: &str, differences: &mut String) {
     if std::env::var_os("UPDATE").is_some() {
@@ -69,9 +78,9 @@ fn scenes_mean_this() {
 #[test]
 fn mistakes_of_meaning_are_reported_so() {
     let mut differences = String::new();
-    for folder in ["tests/diagnostics/resolve", "tests/diagnostics/check"] {
-        for path in scenes(folder) {
-            let (_, report) = compile(&path, &[]);
+    for phase in PHASES {
+        for path in scenes(&format!("tests/diagnostics/{phase}")) {
+            let report = report(phase, &path);
             compare(&path.with_extension("txt"), &report.render_human(&Style::default()), &mut differences);
         }
     }
@@ -83,9 +92,9 @@ fn mistakes_of_meaning_are_reported_so() {
 fn one_mistake_gives_one_report() {
     /// Scenes about how mistakes are told rather than about one code.
     const OTHERS: [&str; 1] = ["trail"];
-    for folder in ["tests/diagnostics/resolve", "tests/diagnostics/check"] {
-        for path in scenes(folder) {
-            let (_, report) = compile(&path, &[]);
+    for phase in PHASES {
+        for path in scenes(&format!("tests/diagnostics/{phase}")) {
+            let report = report(phase, &path);
             let codes: Vec<String> = report.problems.iter().map(code_of).collect();
             let name = path.file_stem().and_then(|stem| stem.to_str()).expect("a scene has a name");
             if !OTHERS.contains(&name) {
@@ -98,9 +107,9 @@ fn one_mistake_gives_one_report() {
 
 #[test]
 fn every_code_of_meaning_has_its_scene() {
-    /// These need a command line.
-    const ELSEWHERE: [&str; 3] = ["unknown_parameter", "no_camera", "unknown_camera"];
-    for phase in ["resolve", "check"] {
+    /// These need a command line, or a file that may not be read.
+    const ELSEWHERE: [&str; 4] = ["unknown_parameter", "no_camera", "unknown_camera", "unreadable"];
+    for phase in PHASES {
         let source = std::fs::read_to_string(format!("src/{phase}/error.rs")).expect("the source is there");
         let prefix = format!("code(snell::{phase}::");
         let codes = source.split(&prefix).skip(1).filter_map(|rest| rest.split(')').next());

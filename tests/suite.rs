@@ -6,6 +6,7 @@ mod command_line;
 mod doubts;
 mod explain;
 mod format;
+mod fuzz;
 mod laws;
 mod laws_geometry;
 mod laws_photon;

@@ -1,4 +1,4 @@
-//! Any text ends in a plan or in a report, files and all.
+//! Any text ends in a world ready for rays or in a report, files and all.
 
 #![no_main]
 

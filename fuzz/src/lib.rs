@@ -6,10 +6,13 @@ use snell::diag::{Problems, Style};
 use snell::format::format;
 use snell::source::{FileId, Memory, SourceMap};
 use snell::syntax::{self, ast::Program};
-use snell::{load, plan};
+use snell::{load, lower, plan};
 
 /// Texts longer than this only repeat what shorter ones show.
 const LONGEST: usize = 1 << 16;
+
+/// Scenes with more objects are not made ready for rays: there are enough smaller ones.
+const MOST_OBJECTS: usize = 16;
 
 /// Any text ends in a tree and a report that can be shown.
 pub fn parse(text: &str) {
@@ -19,7 +22,7 @@ pub fn parse(text: &str) {
     show(problems, &sources);
 }
 
-/// Any text ends in a plan or in a report, files and all.
+/// Any text ends in a world ready for rays or in a report, files and all.
 pub fn compile(text: &str) {
     let Some((mut sources, main)) = source(text) else { return };
     let (files, mut problems) = (files(), Problems::default());
@@ -28,8 +31,12 @@ pub fn compile(text: &str) {
     if let Some(checked) = checked {
         let loaded = load::load(&checked, &sources, &files, &mut problems);
         if let Some(loaded) = loaded.filter(|_| !problems.has_errors()) {
-            let plan = plan::plan(&loaded, checked.cameras.first(), None);
+            let camera = checked.cameras.first();
+            let plan = plan::plan(&loaded, camera, None);
             plan::warn(&plan, &loaded, &mut problems);
+            if let Some(camera) = camera.filter(|_| checked.objects.len() <= MOST_OBJECTS) {
+                lower::lower(&loaded, &plan, camera, &files, &mut problems);
+            }
         }
     }
     show(problems, &sources);
@@ -84,7 +91,10 @@ fn show(problems: Problems, sources: &SourceMap) {
         let file = sources.find(start as u32).map(|id| sources.file(id));
         let file = file.unwrap_or_else(|| panic!("{label:?} lies in no file"));
         let base = file.span().start as usize;
-        assert!(file.text.get(start - base..end - base).is_some(), "{label:?} leaves its file or splits a character");
+        assert!(
+            file.text.get(start - base..end - base).is_some(),
+            "{label:?} leaves its file or splits a character"
+        );
     }
     let report = problems.into_report(sources);
     assert!(!report.render_human(&Style::default()).contains("Failed to read"), "a report cannot be drawn");

@@ -53,6 +53,7 @@ impl Check<'_> {
     }
 
     fn camera(&mut self, camera: &Camera) {
+        self.near("the position of this camera", camera.position);
         self.view(camera);
         self.field_of_view(camera);
         self.film(&camera.film);

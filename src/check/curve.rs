@@ -23,7 +23,17 @@ impl Check<'_> {
         // A B-spline that ends on the axis may miss it by rounding.
         if least < -1e-9 * size {
             let found = Type::Length.write((least * 1e6).round() / 1e6);
-            self.report(CheckError::NegativeRadius { found, used: curve.span });
+            return self.report(CheckError::NegativeRadius { found, used: curve.span });
+        }
+        let is_on_axis = points.iter().all(|p| p.x <= 1e-9 * size);
+        let is_point = points.iter().all(|p| *p == points[0]);
+        if is_on_axis || is_point {
+            let what = match is_on_axis {
+                true => "this profile lies on the axis, and turning it makes no surface".to_owned(),
+                false => "all points of this profile are one".to_owned(),
+            };
+            let help = "points are (radius, height): move them away from the axis, and apart";
+            self.report(CheckError::Degenerate { what, used: curve.span, help });
         }
     }
 

@@ -94,10 +94,39 @@ pub enum CheckError {
     #[error("this transform flattens what it moves")]
     #[diagnostic(code(snell::check::singular_transform), help("no factor of a scale may be 0"))]
     SingularTransform {
-        #[label("leaves no volume")]
+        /// What the factor does.
+        said: String,
+        #[label("{said}")]
         factor: Span,
         /// Where the object begins: all of it would run across the other label.
         #[label("of this object")]
+        object: Span,
+    },
+    #[error("this transform squeezes what it moves to less than a ten-millionth of its width")]
+    #[diagnostic(
+        code(snell::check::squeezing_transform),
+        severity(warning),
+        help("for something flat use a `quad` or a `disk`: of this, rays cannot tell front and back apart")
+    )]
+    SqueezingTransform {
+        #[label("too flat from here on")]
+        factor: Span,
+        #[label("this object")]
+        object: Span,
+    },
+    #[error("paths of at most {depth} vertices {end}")]
+    #[diagnostic(
+        code(snell::check::short_paths),
+        severity(warning),
+        help("write `depth: {wanted}` or more, or leave `depth` out")
+    )]
+    ShortPaths {
+        depth: u32,
+        wanted: u32,
+        end: &'static str,
+        #[label("too few")]
+        used: Span,
+        #[label("to get past this")]
         object: Span,
     },
 
@@ -351,12 +380,30 @@ pub enum CheckError {
     #[diagnostic(
         code(snell::check::caustics_invisible),
         severity(warning),
-        help("choose `method: ppm`, or give the light a size: `light sphere {{ .. }}`")
+        help("write `method: auto`, which sends photons, or give the light a size: `light sphere {{ .. }}`")
     )]
     CausticsInvisible {
         #[label("no path can find a light without size")]
         light: Span,
-        #[label("through this")]
+        #[label("by way of this")]
+        object: Span,
+        #[label("with this method")]
+        method: Span,
+    },
+    #[error("path tracing finds the caustics that this light throws only by luck")]
+    #[diagnostic(
+        code(snell::check::caustics_by_luck),
+        severity(warning),
+        help(
+            "write `method: auto`, which sends photons, or make the light larger: what one path in {paths} finds are specks"
+        )
+    )]
+    CausticsByLuck {
+        /// How many paths it takes to find the light once.
+        paths: u64,
+        #[label("too small a light to be found")]
+        light: Span,
+        #[label("by way of this")]
         object: Span,
         #[label("with this method")]
         method: Span,

@@ -4,8 +4,8 @@ use super::Check;
 use super::error::CheckError;
 use super::space::{Meshes, OwnMaterial};
 use crate::ir::light::EnvironmentRadiance;
-use crate::ir::{Brightness, Environment, Light, LightKind, MaterialKind, Method, Object, ShapeKind};
-use crate::math::Rgb;
+use crate::ir::{Brightness, Environment, Light, LightKind, MaterialKind, Object, ShapeKind};
+use crate::math::{DVec3, Rgb};
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
 
@@ -17,19 +17,24 @@ impl Check<'_> {
         }
         self.endless_lights();
         self.environment();
-        self.caustics();
     }
 
     fn light(&mut self, light: &Light) {
         match light.kind {
-            LightKind::Sphere { radius, .. } => {
-                self.positive("the radius of this light", radius, Type::Length)
+            LightKind::Sphere { center, radius } => {
+                self.positive("the radius of this light", radius, Type::Length);
+                self.near("the centre of this light", Spanned::new(center, light.span));
+                self.near("the radius of this light", radius.map(DVec3::splat));
             }
-            LightKind::Rect { edge_u, edge_v, .. } => {
+            LightKind::Rect { origin, edge_u, edge_v, .. } => {
+                let farthest = origin.abs().max((origin + edge_u).abs()).max((origin + edge_v).abs());
+                self.near("a corner of this light", Spanned::new(farthest, light.span));
                 self.spanned("the edges of this light span no area", edge_u, edge_v, light.span);
             }
             LightKind::Directional { direction } => self.direction("this light", direction),
-            LightKind::Point { .. } => {}
+            LightKind::Point { position, .. } => {
+                self.near("the position of this light", Spanned::new(position, light.span))
+            }
         }
         self.brightness(light.brightness, light.color, light.span);
     }
@@ -108,20 +113,6 @@ impl Check<'_> {
             || scene.objects.iter().any(is_lamp);
         if let (false, Some(camera)) = (lit, scene.cameras.first()) {
             self.report(CheckError::NoLight { camera: camera.span });
-        }
-    }
-
-    /// A light without size is never hit by chance, so path tracing finds no way to it through glass.
-    fn caustics(&mut self) {
-        let Some(method) = self.scene.render.method.filter(|method| method.value == Method::Pt) else {
-            return;
-        };
-        let sizeless =
-            |light: &&Light| matches!(light.kind, LightKind::Point { .. } | LightKind::Directional { .. });
-        let Some(light) = self.scene.lights.iter().find(sizeless).map(|light| light.span) else { return };
-        let glass = self.placed_materials().find(|(kind, _)| matches!(kind, MaterialKind::Glass { .. }));
-        if let Some((_, object)) = glass {
-            self.report(CheckError::CausticsInvisible { light, object, method: method.span });
         }
     }
 }

@@ -3,7 +3,9 @@
 use super::Check;
 use super::error::CheckError;
 use crate::ir::material::CheckerCells;
-use crate::ir::{Brightness, Input, Material, MaterialKind, MetalColor, Projection, Texture, TextureKind};
+use crate::ir::{
+    Brightness, ImageUse, Input, Material, MaterialKind, MetalColor, Projection, Texture, TextureKind, Wrap,
+};
 use crate::math::Rgb;
 use crate::schema::Type;
 use crate::source::Spanned;
@@ -129,14 +131,22 @@ impl Check<'_> {
         }
     }
 
-    /// An input that says how much light is sent back; a checker's colours count, pictures never exceed 1.
+    /// An input that says how much light is sent back: the colours of a checker and what lies around a picture count;
+    /// most pictures never exceed 1, and of the others the pixels are not known yet.
     fn albedo(&mut self, what: &'static str, input: Input) {
         match input {
             Input::Constant(color) => self.reflectance(what, color),
             Input::Texture(handle) => {
-                if let TextureKind::Checker(checker) = &self.scene.textures[handle.value].kind {
-                    self.reflectance(what, checker.a);
-                    self.reflectance(what, checker.b);
+                let texture = &self.scene.textures[handle.value];
+                match &texture.kind {
+                    TextureKind::Checker(checker) => {
+                        self.reflectance(what, checker.a);
+                        self.reflectance(what, checker.b);
+                    }
+                    TextureKind::Image(ImageUse { wrap: Wrap::Border(border), .. }) => {
+                        self.reflectance("the border of this picture", Spanned::new(*border, texture.span));
+                    }
+                    TextureKind::Image(_) => {}
                 }
             }
         }

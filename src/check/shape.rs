@@ -111,7 +111,8 @@ impl Check<'_> {
         }
     }
 
-    fn near(&mut self, what: &'static str, point: Spanned<DVec3>) {
+    /// Notes what lies farther out than single precision reaches.
+    pub(super) fn near(&mut self, what: &'static str, point: Spanned<DVec3>) {
         let farthest = point.value.abs().max_element();
         if farthest > FARTHEST {
             let found = Type::Length.write(farthest);

@@ -38,7 +38,8 @@ fn check_frame(
         .problems
         .retain(|problem| seen.insert((problem.code(), problem.offset(), problem.error.to_string())));
     let args = messages.args();
-    if !session.problems.list().is_empty() && !args.is_for_programs() && !(args.quiet && good) {
+    let is_silent = args.is_for_programs() || args.quiet && good;
+    if !session.problems.list().is_empty() && !is_silent {
         note(format_args!("in frame {frame}:\n"));
     }
     session.report(messages);

@@ -72,6 +72,16 @@ pub enum Brightness {
     Irradiance(f64),
 }
 
+impl Brightness {
+    /// Whether it shines at all.
+    pub fn is_lit(self) -> bool {
+        match self {
+            Self::Power(value) | Self::Irradiance(value) => value != 0.0,
+            Self::Radiance(color) | Self::Intensity(color) => !color.is_black(),
+        }
+    }
+}
+
 /// The light that comes from everywhere.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Environment {

@@ -10,7 +10,7 @@ pub mod light;
 pub mod material;
 pub mod shape;
 
-use crate::math::{DAffine3, Rgb};
+use crate::math::{DAffine3, DMat3, Rgb};
 use crate::source::{Span, Spanned};
 pub use arena::{Arena, Handle};
 pub use camera::{Camera, Exposure, Film, Filter, Focus, Lens, Tone};
@@ -62,7 +62,7 @@ pub struct Object {
     /// World space from object space: all transforms around it, composed.
     pub world_from_object: DAffine3,
     /// The factors of `world_from_object`, the innermost first. Kept only where they flatten the object
-    /// ([`is_singular`]), to say which of them does; empty otherwise.
+    /// ([`is_singular`]) or nearly do ([`is_squeezing`]), to say which of them does; empty otherwise.
     pub transforms: Vec<TransformStep>,
     /// The place that put it into the scene: its block, or the innermost `place`.
     pub span: Span,
@@ -90,6 +90,16 @@ pub fn is_singular(transform: &DAffine3) -> bool {
     let m = transform.matrix3;
     let lengths = m.x_axis.length() * m.y_axis.length() * m.z_axis.length();
     m.determinant().abs() <= VANISHING * lengths
+}
+
+/// Whether a transform squeezes what it moves so much in one direction that single precision cannot tell its two sides
+/// apart: it stretches another direction more than 10⁷ times as much (single precision has 24 bits).
+///
+/// By the Frobenius norms of the matrix and its inverse, whose product is from 1 to 3 times the ratio.
+pub fn is_squeezing(transform: &DAffine3) -> bool {
+    const MOST: f64 = 1e7;
+    let norm = |m: DMat3| m.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
+    norm(transform.matrix3) * norm(transform.matrix3.inverse()) > 3.0 * MOST
 }
 
 /// One factor of a transform, for reports about singular ones.

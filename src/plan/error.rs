@@ -37,4 +37,16 @@ pub enum PlanWarning {
         #[label("and this has no end")]
         plane: Span,
     },
+    /// Photons are kept where light is spread, and here nothing spreads it.
+    #[error("`ppm` finds no surface that photons could land on")]
+    #[diagnostic(
+        code(snell::plan::photons_without_receiver),
+        severity(warning),
+        help("use `pt` or `auto`: mirrors and glass keep no photons")
+    )]
+    PhotonsWithoutReceiver {
+        /// What is there instead.
+        #[label("light goes on from here as it came")]
+        specular: Span,
+    },
 }

@@ -89,6 +89,12 @@ pub fn warn(plan: &Plan, loaded: &Loaded<'_>, problems: &mut Problems) {
     if let (Method::Ppm, Some((light, plane))) = (plan.method, endless(loaded)) {
         problems.push(PlanWarning::EndlessPhotons { light, plane });
     }
+    let is_kept =
+        [Effect::Indirect, Effect::Glossy, Effect::Textures].into_iter().any(|effect| plan.needs(effect));
+    let specular = plan.effects.iter().find(|used| used.effect == Effect::Specular);
+    if let (Method::Ppm, false, Some(specular)) = (plan.method, is_kept, specular) {
+        problems.push(PlanWarning::PhotonsWithoutReceiver { specular: specular.span });
+    }
 }
 
 /// What means nothing to a method that simulates light.

@@ -161,7 +161,7 @@ impl<'a> Resolver<'a> {
         let shape_handle = handle.get().unwrap_or_else(|| shapes.push(shape.clone()));
         handle.set(Some(shape_handle));
         let world_from_object = around.world * compose(&node.transform);
-        let transforms = if ir::is_singular(&world_from_object) {
+        let transforms = if ir::is_singular(&world_from_object) || ir::is_squeezing(&world_from_object) {
             node.transform.iter().chain(&around.steps).copied().collect()
         } else {
             Vec::new()

@@ -2,7 +2,7 @@
 
 use super::region::Region;
 use super::{CheckError, Survey, Thing, plane_of};
-use crate::ir::{Brightness, LightKind, ShapeKind};
+use crate::ir::{LightKind, ShapeKind};
 use crate::math::DVec3;
 use crate::source::Span;
 
@@ -49,7 +49,7 @@ impl Survey<'_> {
     fn panels(&self) -> Vec<Panel> {
         let lights = self.scene.lights.iter().filter_map(|light| match light.kind {
             LightKind::Rect { origin, edge_u, edge_v, two_sided: false }
-                if !is_dark(light.brightness.value) =>
+                if light.brightness.value.is_lit() =>
             {
                 Panel::of(origin, edge_u, edge_v, light.span, None)
             }
@@ -143,12 +143,5 @@ impl Panel {
             let (s, t) = (p.cross(v).dot(n) / n.length_squared(), u.cross(p).dot(n) / n.length_squared());
             (-ROUNDING..=1.0 + ROUNDING).contains(&s) && (-ROUNDING..=1.0 + ROUNDING).contains(&t)
         })
-    }
-}
-
-fn is_dark(brightness: Brightness) -> bool {
-    match brightness {
-        Brightness::Power(value) | Brightness::Irradiance(value) => value == 0.0,
-        Brightness::Radiance(color) | Brightness::Intensity(color) => color.is_black(),
     }
 }

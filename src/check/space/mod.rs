@@ -4,6 +4,7 @@
 //! loops place is doubted only where all of it is doubtful.
 
 mod aim;
+mod caustics;
 mod glass;
 mod region;
 mod room;
@@ -85,8 +86,15 @@ impl Check<'_> {
         }
         self.any_light(meshes);
         let survey = Survey::of(self.scene, meshes);
-        let doubts =
-            [survey.rooms(), survey.glass(), survey.open_glass(meshes), survey.aims(), survey.views()];
+        let doubts = [
+            survey.rooms(),
+            survey.glass(),
+            survey.open_glass(meshes),
+            survey.aims(),
+            survey.views(),
+            survey.caustics(),
+            survey.short_paths(),
+        ];
         doubts.into_iter().flatten().for_each(|doubt| self.report(doubt));
     }
 }

@@ -226,7 +226,7 @@ impl Loop {
         let meet = first.distance(*last) <= ROUNDING * size;
         let on_axis = first.x.max(last.x) <= ROUNDING * size;
         let slack = slack(profile, size);
-        (meet || on_axis).then(|| Self { is_whole: meet, slack, size, points })
+        (meet || on_axis).then_some(Self { is_whole: meet, slack, size, points })
     }
 
     /// An outline; `None` when it crosses itself, or has too many points to tell.

@@ -15,6 +15,10 @@ pub(super) struct Stuff {
     pub(super) shines: bool,
     /// It is mere glow: black where nothing shines.
     pub(super) is_lamp: bool,
+    /// Some of it is a mirror, or glass.
+    pub(super) is_specular: bool,
+    /// Some of it spreads light: caustics can fall on it.
+    pub(super) is_rough: bool,
 }
 
 /// What tells one glass from another.
@@ -26,15 +30,39 @@ pub(super) struct Glass {
 }
 
 impl Stuff {
-    const OPAQUE: Self = Self { is_opaque: true, clear: None, shines: false, is_lamp: false };
+    /// What light stops at, matt all over.
+    const MATT: Self = Self {
+        is_opaque: true,
+        clear: None,
+        shines: false,
+        is_lamp: false,
+        is_specular: false,
+        is_rough: true,
+    };
 
     /// Of a mesh that nothing gives a material.
     pub(super) fn of_own(parts: impl Iterator<Item = OwnMaterial>) -> Self {
-        parts.fold(Self::OPAQUE, |all, part| Self {
-            is_opaque: all.is_opaque && part == OwnMaterial::Opaque,
-            shines: all.shines || part == OwnMaterial::Shining,
-            ..all
-        })
+        parts.map(Self::of_part).reduce(Self::and).unwrap_or(Self::MATT)
+    }
+
+    fn of_part(part: OwnMaterial) -> Self {
+        match part {
+            OwnMaterial::Opaque => Self::MATT,
+            OwnMaterial::Clear => Self { is_specular: true, ..Self::default() },
+            OwnMaterial::Shining => Self { shines: true, ..Self::default() },
+        }
+    }
+
+    /// What is of the one and of the other.
+    fn and(self, other: Self) -> Self {
+        Self {
+            is_opaque: self.is_opaque && other.is_opaque,
+            clear: None,
+            shines: self.shines || other.shines,
+            is_lamp: self.is_lamp && other.is_lamp,
+            is_specular: self.is_specular || other.is_specular,
+            is_rough: self.is_rough || other.is_rough,
+        }
     }
 }
 
@@ -59,22 +87,15 @@ impl Stuffs {
 
 fn stuff(kind: &MaterialKind, part: impl Fn(Handle<Material>) -> Stuff) -> Stuff {
     match kind {
-        MaterialKind::Diffuse { .. }
-        | MaterialKind::Phong { .. }
-        | MaterialKind::Mirror { .. }
-        | MaterialKind::Metal { .. } => Stuff::OPAQUE,
-        MaterialKind::Whitted { transmission: Input::Constant(color), .. } if color.is_black() => {
-            Stuff::OPAQUE
-        }
-        MaterialKind::Whitted { .. } => Stuff::default(),
+        MaterialKind::Diffuse { .. } | MaterialKind::Phong { .. } | MaterialKind::Metal { .. } => Stuff::MATT,
+        MaterialKind::Whitted { transmission: Input::Constant(color), .. } if color.is_black() => Stuff::MATT,
+        MaterialKind::Whitted { .. } => Stuff { is_specular: true, is_rough: true, ..Stuff::default() },
+        MaterialKind::Mirror { .. } => Stuff { is_specular: true, is_rough: false, ..Stuff::MATT },
         MaterialKind::Glass { ior, tint, absorption } => {
             let glass = Glass { ior: ior.value, tint: tint.value, absorption: *absorption };
-            Stuff { clear: Some(glass), ..Stuff::default() }
+            Stuff { clear: Some(glass), is_specular: true, ..Stuff::default() }
         }
         MaterialKind::Emissive { .. } => Stuff { shines: true, is_lamp: true, ..Stuff::default() },
-        MaterialKind::Mix { a, b, .. } => {
-            let (a, b) = (part(*a), part(*b));
-            Stuff { is_opaque: a.is_opaque && b.is_opaque, shines: a.shines || b.shines, ..Stuff::default() }
-        }
+        MaterialKind::Mix { a, b, .. } => part(*a).and(part(*b)),
     }
 }

@@ -1,10 +1,12 @@
 //! Cameras: that something is before them, and larger than a pixel.
 
 use super::region::{Extent, Region};
-use super::{CheckError, Reach, Survey};
+use super::stuff::Stuff;
+use super::{CheckError, Reach, Survey, Thing};
 use crate::ir::camera::Fov;
-use crate::ir::{Camera, Lens};
+use crate::ir::{Camera, Focus, Lens};
 use crate::math::DVec3;
+use crate::source::Spanned;
 use std::f64::consts::FRAC_PI_4;
 
 /// How much wider the view is taken than it is, for what pixel filters add at the edges.
@@ -13,7 +15,44 @@ const WIDER: f64 = 1.05;
 impl Survey<'_> {
     /// Cameras that see nothing of the scene, or only a dot.
     pub(super) fn views(&self) -> Vec<CheckError> {
-        self.scene.cameras.iter().filter_map(|camera| self.view(camera)).collect()
+        let of_camera = |camera: &Camera| self.focus_behind(camera).or_else(|| self.view(camera));
+        self.scene.cameras.iter().filter_map(of_camera).collect()
+    }
+
+    /// A lens focused on something that is all behind the camera.
+    fn focus_behind(&self, camera: &Camera) -> Option<CheckError> {
+        let Lens::Thin { focus: Some(Spanned { value: Focus::On(id, _), span }), .. } = &camera.lens else {
+            return None;
+        };
+        let (eye, forward) = (camera.position.value, camera.direction.value);
+        let mut named = self.things.iter().filter(|thing| thing.object.names.contains(id)).peekable();
+        named.peek()?;
+        let is_behind =
+            |thing: &Thing| thing.region.as_ref().is_some_and(|r| r.support(forward) <= forward.dot(eye));
+        let position = camera.position.span;
+        named.all(is_behind).then_some(CheckError::FocusBehind { focus: *span, position })
+    }
+
+    /// Paths that end before they have been through glass, or off a mirror, and on to a light.
+    pub(super) fn short_paths(&self) -> Vec<CheckError> {
+        let needed = |thing: &Thing| match thing.stuff {
+            Stuff { clear: Some(_), .. } => {
+                (4, "end inside of glass: in, out, on to a surface, to a light are 4")
+            }
+            Stuff { is_specular: true, .. } => {
+                (3, "end on the way from a mirror: it, a surface, a light are 3")
+            }
+            Stuff { is_rough: true, .. } => (2, "see nothing but lights: a surface and a light are 2"),
+            _ => (0, ""),
+        };
+        let longest =
+            self.things.iter().map(|thing| (needed(thing), thing.object.span)).max_by_key(|(n, _)| n.0);
+        match (self.scene.render.depth, longest) {
+            (Some(depth), Some(((wanted, end), object))) if depth.value < wanted => {
+                vec![CheckError::ShortPaths { depth: depth.value, wanted, end, used: depth.span, object }]
+            }
+            _ => Vec::new(),
+        }
     }
 
     fn view(&self, camera: &Camera) -> Option<CheckError> {
