@@ -9,6 +9,12 @@ use snell::schema;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+/// A law that holds of every text.
+type Law = fn(&str);
+
+const LAWS: [(&str, Law); 4] =
+    [("parse", laws::parse), ("compile", laws::compile), ("fmt", laws::fmt), ("convert", laws::convert)];
+
 fn files(folder: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     let mut files: Vec<PathBuf> =
@@ -19,9 +25,7 @@ fn files(folder: &str) -> Vec<PathBuf> {
 
 #[test]
 fn what_must_hold_of_every_text_holds_of_those_at_hand() {
-    let laws: [(&str, fn(&str)); 4] =
-        [("parse", laws::parse), ("compile", laws::compile), ("fmt", laws::fmt), ("convert", laws::convert)];
-    for (name, law) in laws {
+    for (name, law) in LAWS {
         let (corpus, found) = (files(&format!("fuzz/corpus/{name}")), files(&format!("fuzz/found/{name}")));
         assert!(!corpus.is_empty(), "nothing to start `{name}` from");
         for path in corpus.iter().chain(&found) {
