@@ -1,5 +1,6 @@
 //! All integration tests, in one binary: linking several costs more than running them.
 
+mod convert_rays;
 mod format;
 mod laws;
 mod laws_geometry;

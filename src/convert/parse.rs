@@ -1,6 +1,7 @@
 //! Text → raw tree: words, numbers, lists and blocks with their places, no meaning yet.
 
-use super::error::{Mistake, Notebook};
+use super::mistake::Mistake;
+use super::notebook::Notebook;
 use pest::Parser;
 use pest::iterators::Pair;
 
@@ -104,12 +105,13 @@ impl<'t> Node<'t> {
     }
 }
 
-/// Reads a text as a nameless block that holds everything. What is not balanced is noted; the rest is read all the same.
-pub fn parse<'t>(text: &'t str, notes: &mut Notebook) -> Block<'t> {
+/// Reads a text as a nameless block that holds everything, and tells where its comments are. What is not balanced is
+/// noted; the rest is read all the same.
+pub fn parse<'t>(text: &'t str, notes: &mut Notebook) -> (Block<'t>, Vec<Span>) {
     let nothing = || Block { name: None, body: Vec::new(), span: 0..text.len(), head: 0..0 };
     if text.len() > MAX_BYTES {
         notes.note(Mistake::TooLarge { bytes: text.len(), limit: MAX_BYTES });
-        return nothing();
+        return (nothing(), Vec::new());
     }
     match Grammar::parse(Rule::scene, text) {
         Ok(mut pairs) => {
@@ -117,7 +119,7 @@ pub fn parse<'t>(text: &'t str, notes: &mut Notebook) -> Block<'t> {
             let mut builder = Builder { notes, comments: Vec::new() };
             let body = builder.nodes(scene.into_inner(), 0);
             builder.note_comments();
-            Block { body, ..nothing() }
+            (Block { body, ..nothing() }, builder.comments)
         }
         // `scene` matches every text, so the parser can only have run out of stack.
         Err(error) => {
@@ -125,7 +127,7 @@ pub fn parse<'t>(text: &'t str, notes: &mut Notebook) -> Block<'t> {
                 pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => at,
             };
             notes.note(Mistake::TooDeep { limit: MAX_NESTING, at: (at, 0).into() });
-            nothing()
+            (nothing(), Vec::new())
         }
     }
 }
@@ -185,7 +187,7 @@ impl Builder<'_> {
         Some(block)
     }
 
-    /// `list = { open_bracket ~ (number | word)* ~ (close_bracket | missing_bracket) }`
+    /// `list = { open_bracket ~ (separator | number | word)* ~ (close_bracket | missing_bracket) }`
     fn list<'t>(&mut self, pair: Pair<'t, Rule>, depth: usize) -> List<'t> {
         let mut list = List { items: Vec::new(), span: span(&pair) };
         for part in pair.into_inner() {

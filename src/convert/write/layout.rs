@@ -119,6 +119,11 @@ pub fn comment(note: &str, depth: usize) -> String {
     wrap(note.split_whitespace().map(String::from), depth, "// ")
 }
 
+/// A remark that stands for itself.
+pub fn remark(note: &str) -> Value {
+    Value::Text(comment(note, 0).trim_end().to_string())
+}
+
 /// Words in lines no longer than [`WIDTH`], each line with `lead` before it.
 fn wrap(words: impl Iterator<Item = String>, depth: usize, lead: &str) -> String {
     let start = format!("{}{lead}", INDENT.repeat(depth));
