@@ -47,6 +47,14 @@ impl Log {
         self.tell(span, Outcome::Dropped(why.into()));
     }
 
+    /// Tells of a comment, unless it stands in the middle of something that is told of.
+    pub fn comment(&mut self, span: &Span) {
+        let before = self.fates.range(..=span.start).next_back();
+        if before.is_none_or(|(_, fate)| fate.span.end <= span.start) {
+            self.ignored(span, "a comment, which the format does not have");
+        }
+    }
+
     fn tell(&mut self, span: &Span, outcome: Outcome) {
         self.fates.insert(span.start, Fate { span: span.clone(), outcome });
     }
@@ -57,6 +65,17 @@ impl Log {
             let at = span.clone().into();
             self.notes.note(Mistake::Guessed { key: key.into(), meant: role.into(), at });
         }
+    }
+
+    /// The fates in the order of the file. What was taken without a word was lost on the way.
+    pub fn into_fates(self) -> (Vec<Fate>, Notebook) {
+        let mut fates: Vec<Fate> = self.fates.into_values().collect();
+        for fate in &mut fates {
+            if fate.outcome.parts().1 == READ {
+                fate.outcome = Outcome::Dropped("lost with what it belongs to".into());
+            }
+        }
+        (fates, self.notes)
     }
 
     /// Drops a whole block, whatever was said of its parts.

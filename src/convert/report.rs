@@ -81,10 +81,13 @@ fn punctuation(text: &str, gap: Span) -> impl Iterator<Item = Fate> + '_ {
     let start = gap.start;
     tokens(&text[gap]).map(move |token| {
         let span = start + token.start..start + token.end;
-        let ends_block = ["}", "]"].contains(&&text[span.clone()]);
-        let outcome = match ends_block {
-            true => Outcome::Mapped("ends a block".into()),
-            false => Outcome::Ignored("means nothing between values".into()),
+        let outcome = match &text[span.clone()] {
+            "}" | "]" => Outcome::Mapped("ends a block".into()),
+            "{" | "[" => Outcome::Mapped("begins a block".into()),
+            separator if separator.chars().all(|c| ",;".contains(c)) => {
+                Outcome::Ignored("means nothing between values".into())
+            }
+            _ => Outcome::Dropped("lost with what it belongs to".into()),
         };
         Fate { span, outcome }
     })

@@ -90,7 +90,9 @@ impl Log {
             Some(Args::Free) => {
                 take_numbers(&mut field, nodes, usize::MAX);
                 if field.numbers.is_empty() {
-                    take_word(&mut field, nodes, |word, _| !vocabulary.knows(word));
+                    take_word(&mut field, nodes, |word, _| {
+                        vocabulary.find(word).is_none_or(|row| row.args == Args::Flag)
+                    });
                     take_numbers(&mut field, nodes, usize::MAX);
                 }
                 self.check_value(&mut field, "numbers or a word", " 1`, or a word");

@@ -226,8 +226,13 @@ impl Reader<'_> {
                 "the distance is kept as the focus of a real lens, so the blur will differ",
             );
         }
-        let focus = self.log.take(fields, rule.focus)?;
-        let opening = self.log.take(fields, rule.opening)?;
+        let taken = (self.log.take(fields, rule.focus), self.log.take(fields, rule.opening));
+        let (Some(focus), Some(opening)) = taken else {
+            for field in [taken.0, taken.1].into_iter().flatten() {
+                self.log.dropped(&field.span, "does not make a lens by itself");
+            }
+            return None;
+        };
         self.log.approximated(&focus.span, "the distance in focus, along the view axis");
         self.log.approximated(&opening.span, rule.note);
         let distance = (rule.distance)(focus.number(0), center.length());

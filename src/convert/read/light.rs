@@ -105,7 +105,9 @@ impl Reader<'_> {
             (Lights::Keep, _) => None,
             (Lights::Drop, _) => Some("the options say so"),
             (Lights::Auto, Dialect::Arsenal) => Some("in this dialect only emissive spheres shine"),
-            (Lights::Auto, Dialect::Weights | Dialect::Enum | Dialect::Flags) if any_emission && is_bare => {
+            (Lights::Auto, Dialect::Weights | Dialect::Enum | Dialect::Flags | Dialect::Implied)
+                if any_emission && is_bare =>
+            {
                 Some("programs of this dialect ignore it where materials emit light")
             }
             _ => None,
@@ -127,8 +129,12 @@ impl Reader<'_> {
     }
 
     fn light_of(&mut self, name: &str, fields: &mut Fields<'_>) -> Option<Light> {
+        self.log.mapped(&fields.head, "a light");
         let color = self.light_color(fields);
         if let Some(inner) = fields.take_block(|name| blocks::object(name).is_some()) {
+            if color.is_none() {
+                self.log.dropped(&inner.span, "left out with its light");
+            }
             return self.glowing_object(inner, fields, color?);
         }
         let kind = Kind::of(name, fields);

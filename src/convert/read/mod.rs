@@ -47,16 +47,17 @@ pub fn read(
     notes: Notebook,
 ) -> Reading {
     let mut log = Log::new(notes);
-    for comment in comments {
-        log.ignored(comment, "a comment, which the format does not have");
-    }
     let mut scenes = Vec::new();
     for tree in scene::split(tree, &mut log) {
         let mut reader = Reader::new(log, options, files);
         scenes.push(reader.scene(tree));
         log = reader.log;
     }
-    Reading { scenes, fates: log.fates.into_values().collect(), notes: log.notes }
+    for comment in comments {
+        log.comment(comment);
+    }
+    let (fates, notes) = log.into_fates();
+    Reading { scenes, fates, notes }
 }
 
 /// What reading needs to know on the way.

@@ -165,7 +165,12 @@ impl Reader<'_> {
         self.log.put_aside(&mut fields, &["picture frame"], frame);
         self.log.finish(fields);
 
-        let mut object = object?;
+        let Some(mut object) = object else {
+            if let Some(block) = own_material {
+                self.log.dropped(&block.span, "left out with its object");
+            }
+            return None;
+        };
         object.material = match (own_material, index) {
             (Some(block), _) => {
                 let in_force = self.material_index;

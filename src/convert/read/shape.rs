@@ -221,7 +221,11 @@ impl Reader<'_> {
     }
 
     pub(super) fn obj_file(&mut self, field: &Field<'_>) -> Option<Asset> {
-        let word = field.word.as_ref()?;
+        let Some(word) = &field.word else {
+            self.log.dropped(&field.span, "no file");
+            self.log.bad_value("a number is no mesh file", &field.span, "write the file's name");
+            return None;
+        };
         self.log.mapped(&field.span, "`file`");
         if !word.text.to_ascii_lowercase().ends_with(".obj") {
             let help = "the original refuses it; the renderer goes by the file's own format";

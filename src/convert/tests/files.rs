@@ -23,7 +23,10 @@ fn scenes_convert_to_what_is_expected() {
         assert_accounted(&text, &conversion, name);
         for (index, scene) in conversion.scenes.iter().enumerate() {
             let doubts = assert_compiles(&scene.snell, name);
-            assert!(doubts.is_empty() || name.starts_with("odd"), "{name}: {doubts:?}");
+            assert!(
+                doubts.is_empty() || ["doubts.txt", "mistakes.txt"].contains(&name),
+                "{name}: {doubts:?}"
+            );
             let ending = if index == 0 { "snell".into() } else { format!("{}.snell", index + 1) };
             assert_expected(&path.with_extension(ending), &scene.snell);
         }

@@ -71,12 +71,12 @@ fn matrices_multiply_from_the_left_and_lie_as_they_are_named() {
              XRotate 5 {name} {{ {numbers} }} YRotate 6 Sphere {{ center 0 0 0 radius 1 }} }} }}"
         )
     };
-    let rows = convert_plainly(&text("Matrix", "1 2 3 4 5 6 7 8 9 10 11 12 0 0 0 1")).only();
+    let rows = convert_plainly(&text("Matrix", "1 2 3 4 5 6 7 8 9 10 12 12 0 0 0 1")).only();
     assert!(rows.contains("rotate_y(6deg)") && rows.contains("rotate_x(5deg)"));
     let order = ["rotate_y", "rotate_x", "matrix"].map(|name| rows.find(name).expect("a step"));
     assert!(order.is_sorted(), "{rows}");
     assert!(rows.contains("matrix([1, 2, 3, 4, 5"), "{rows}");
-    let columns = convert_plainly(&text("Matrix4f", "1 5 9 0 2 6 10 0 3 7 11 0 4 8 12 1")).only();
+    let columns = convert_plainly(&text("Matrix4f", "1 5 9 0 2 6 10 0 3 7 12 0 4 8 12 1")).only();
     assert!(columns.contains("matrix([1, 2, 3, 4, 5"), "{columns}");
 }
 

@@ -66,6 +66,7 @@ impl Entry {
     pub fn flat(&self) -> Option<String> {
         let value = match &self.value {
             Value::Text(text) => text.clone(),
+            Value::Group(head, entries) if entries.is_empty() => format!("{head}{{}}"),
             Value::Group(..) => return None,
             Value::Chain(steps) => steps.join(" then "),
             Value::List(open, items, close) => format!("{open}{}{close}", items.join(", ")),

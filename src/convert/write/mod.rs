@@ -14,6 +14,7 @@ use super::dialect::Dialect;
 use super::model::{Background, Camera, Scene, Settings};
 use crate::math::DVec3;
 use layout::{Entry, Value, comment, paragraph};
+use std::collections::BTreeSet;
 use text::{color, point, rounded};
 
 /// The sides of a picture whose size the original learns on its command line; square, as its pictures are.
@@ -30,7 +31,7 @@ pub fn write(scene: &Scene, name: &str) -> String {
     let sections = [
         camera,
         background(&scene.background),
-        scene.lights.iter().map(|light| light::entry(light, scene, &names)).collect(),
+        said_once(scene.lights.iter().map(|light| light::entry(light, scene, &names)).collect()),
         names.bindings(scene),
         object::entries(&scene.objects, scene, &names),
         vec![render_entry(dialect, &scene.settings)],
@@ -40,6 +41,15 @@ pub fn write(scene: &Scene, name: &str) -> String {
         out += &paragraph(section);
     }
     out
+}
+
+/// What holds for several entries is said at the first.
+fn said_once(mut entries: Vec<Entry>) -> Vec<Entry> {
+    let mut said = BTreeSet::new();
+    for entry in &mut entries {
+        entry.notes.retain(|note| said.insert(note.clone()));
+    }
+    entries
 }
 
 /// Where the scene came from, and what holds for all of it.
