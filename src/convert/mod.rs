@@ -15,6 +15,7 @@ mod notebook;
 mod parse;
 mod read;
 pub mod report;
+mod step;
 mod values;
 mod words;
 mod write;

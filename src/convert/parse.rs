@@ -14,6 +14,9 @@ pub const MAX_NESTING: usize = 256;
 /// The longest text that is read, in bytes. The parser takes about thirty times as much memory.
 pub const MAX_BYTES: usize = 16 << 20;
 
+/// The largest number that is read as one.
+const LARGEST: f64 = 1e15;
+
 #[derive(pest_derive::Parser)]
 #[grammar = "../grammar/arsenal.pest"]
 struct Grammar;
@@ -222,11 +225,11 @@ fn word<'t>(pair: &Pair<'t, Rule>) -> Word<'t> {
     Word { text: pair.as_str(), span: span(pair) }
 }
 
-/// A number, in double precision but with the range of the original's single precision: what is too small for it
-/// is 0, and what is too large stays a word; whoever wants a number there says so.
+/// A number, in double precision. What is too small for the original's single precision is 0, and what is larger than
+/// anything in a scene stays a word; whoever wants a number there says so.
 fn number<'t>(pair: &Pair<'t, Rule>) -> Node<'t> {
     match pair.as_str().parse::<f64>() {
-        Ok(value) if value.abs() <= f64::from(f32::MAX) => {
+        Ok(value) if value.abs() <= LARGEST => {
             let value = if value as f32 == 0.0 { 0.0 } else { value };
             Node::Number(Number { value, text: pair.as_str(), span: span(pair) })
         }

@@ -346,7 +346,8 @@ impl Reader<'_> {
     ) -> Option<Light> {
         self.log.mapped(&fields.head, "an object of `emissive`");
         self.log.put_aside(fields, &["two_sided"], "materials of light shine to one side");
-        let object = self.shape_of_light(block)?;
+        let mut object = self.shape_of_light(block)?;
+        self.bound(&mut object);
         Some(Light::Glowing { object: Box::new(object), radiance })
     }
 

@@ -184,6 +184,9 @@ impl Reader<'_> {
             (None, None) => self.material_of(&name, &head),
         };
         self.note_dark_lamp(&mut object);
+        if object.material.and_then(|index| self.materials.get(index)).is_some_and(|it| it.look.shines()) {
+            self.bound(&mut object);
+        }
         Some(object)
     }
 

@@ -53,8 +53,7 @@ impl Reader<'_> {
     }
 
     fn check_edges(&mut self, quad: Parallelogram, at: &Span) -> Option<Parallelogram> {
-        let area = quad.edge_u.cross(quad.edge_v);
-        if area != DVec3::ZERO && area.is_finite() {
+        if !is_flat(quad.edge_u, quad.edge_v) {
             return Some(quad);
         }
         self.log.bad_value(
@@ -210,6 +209,11 @@ impl Reader<'_> {
         });
         Some(facing_along(between(fixed, position, [u?, v?]), DVec3::AXES[fixed] * sign))
     }
+}
+
+/// Whether two edges span nothing: the sine of their angle is rounding error.
+pub(super) fn is_flat(u: DVec3, v: DVec3) -> bool {
+    u.cross(v).length() <= 1e-11 * u.length() * v.length()
 }
 
 /// The rectangle at `offset` on one axis, between two numbers on each of the others.

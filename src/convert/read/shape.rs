@@ -1,6 +1,7 @@
 //! Shapes but for planes and surfaces of revolution.
 
 use super::Reader;
+use super::quad::is_flat;
 use crate::convert::dialect::Dialect;
 use crate::convert::fields::{Field, Fields};
 use crate::convert::model::{Asset, Curve, Object, Profile, Shape, Step};
@@ -94,7 +95,7 @@ impl Reader<'_> {
         );
         let [a, b, c] = corners;
         let (a, b, c) = (a?, b?, c?);
-        if (b - a).cross(c - a) == DVec3::ZERO {
+        if is_flat(b - a, c - a) {
             let head = fields.head.clone();
             let help = "it was left out; write corners that are not in one line";
             self.log.bad_value("this triangle has no area", &head, help);
@@ -244,16 +245,5 @@ impl Reader<'_> {
         let mut object = Object::new(Shape::Mesh { file, smooth: false }, field.span.clone());
         object.material = self.material_of("mesh", &field.span);
         Some(object)
-    }
-}
-
-impl Step {
-    /// Whether the step leaves everything where it is.
-    fn is_identity(&self) -> bool {
-        match self {
-            Self::Scale(by) => *by == DVec3::ONE,
-            Self::Translate(by) => *by == DVec3::ZERO,
-            _ => false,
-        }
     }
 }

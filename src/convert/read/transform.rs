@@ -4,12 +4,10 @@ use super::{Dialect, Mistake, Reader};
 use crate::convert::fields::{Field, Part};
 use crate::convert::model::{Object, Shape, Step};
 use crate::convert::parse::{Block, Span};
+use crate::convert::step::flatten;
 use crate::convert::words::TRANSFORM;
-use crate::math::{DMat3, DVec3};
+use crate::math::DVec3;
 use std::collections::VecDeque;
-
-/// Volumes that a transform magnifies by less than this, or by more than its inverse, are nothing or everything.
-const SMALLEST_DETERMINANT: f64 = 1e-30;
 
 impl Reader<'_> {
     /// Each operation multiplies on the right, so the last one acts first.
@@ -23,7 +21,10 @@ impl Reader<'_> {
         for part in self.log.parts(block.body, &TRANSFORM) {
             match part {
                 Part::Field(field) if field.role == "MaterialIndex" => self.set_material(&field),
-                Part::Field(field) if field.role == "velocity" && field.sound => velocity = Some(field),
+                Part::Field(field) if field.role == "velocity" && field.sound => {
+                    self.log.approximated(&field.span, "stands still half way through its motion");
+                    velocity = Some(field);
+                }
                 Part::Field(field) if !field.role.is_empty() && field.sound => {
                     self.operation(&field, &mut factors);
                 }
@@ -47,7 +48,6 @@ impl Reader<'_> {
         };
         object.steps.extend(factors.into_iter().rev());
         if let Some(field) = velocity {
-            self.log.approximated(&field.span, "stands still half way through its motion");
             self.still(&mut object, 0.5 * field.vector(), &field.span);
         }
         self.check_volume(&object, &span)?;
@@ -71,9 +71,7 @@ impl Reader<'_> {
 
     /// An object that is flattened to nothing cannot be shown.
     fn check_volume(&mut self, object: &Object, span: &Span) -> Option<()> {
-        let linear = object.steps.iter().fold(DMat3::IDENTITY, |before, step| step.linear() * before);
-        let determinant = linear.determinant().abs();
-        if (SMALLEST_DETERMINANT..1.0 / SMALLEST_DETERMINANT).contains(&determinant) {
+        if !flatten(&object.steps) {
             return Some(());
         }
         let help = "the object was left out; write factors other than 0";
@@ -122,19 +120,6 @@ impl Reader<'_> {
             }
             Step::Matrix(_) => factors.push_front(step), // the two matrix operations multiply on the left
             step => factors.push_back(step),
-        }
-    }
-}
-
-impl Step {
-    /// What the step does to directions.
-    fn linear(&self) -> DMat3 {
-        match self {
-            Self::Scale(by) => DMat3::from_diagonal(*by),
-            Self::Matrix(m) => {
-                DMat3::from_cols_array(&[m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]])
-            }
-            Self::Translate(_) | Self::RotateAxis(..) | Self::Rotate(..) => DMat3::IDENTITY, // up to a rotation
         }
     }
 }
