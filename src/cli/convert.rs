@@ -4,7 +4,9 @@ use super::args::{Deny, MessageArgs};
 use super::messages::Messages;
 use super::session;
 use super::{Exit, fail, note, print};
-use crate::convert::{Basis, Conversion, Dialect, DiskFinder, Lights, Options, report};
+use crate::convert::{
+    Angle, Basis, Conversion, Dialect, DiskFinder, Falloff, Lights, Options, PlaneSign, Planes, report,
+};
 use crate::output;
 use crate::source::SourceMap;
 use clap::{Args, ValueEnum};
@@ -17,13 +19,16 @@ pub struct ConvertArgs {
     /// The scene to convert; `-` is standard input
     #[arg(value_name = "IN.txt")]
     input: PathBuf,
-    /// Write the scene here instead of to standard output
+    /// Write the scene here instead of to standard output; further scenes of the file get a number
     #[arg(short, long, value_name = "OUT.snell")]
     output: Option<PathBuf>,
+    /// Of a file that holds several scenes, only this one, counted from 1
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    scene: Option<u32>,
     /// The dialect, instead of the one that the file seems to be in
     #[arg(long, value_name = "DIALECT", value_parser = dialect)]
     dialect: Option<Dialect>,
-    /// Treat everything that is not understood as an error
+    /// Treat everything that is wrong or not understood as an error
     #[arg(long)]
     strict: bool,
     /// Treat warnings as errors
@@ -32,9 +37,21 @@ pub struct ConvertArgs {
     /// How the camera's basis is made where `up` leans
     #[arg(long, value_name = "HOW")]
     basis: Option<BasisArg>,
+    /// What `angle` spans in a picture that is not square
+    #[arg(long, value_name = "WHAT")]
+    angle: Option<AngleArg>,
     /// What to do with the `Lights` block
     #[arg(long, value_name = "WHAT", default_value = "auto")]
     lights: LightsArg,
+    /// How point lights fall off with distance
+    #[arg(long, value_name = "LAW", default_value = "auto")]
+    falloff: FalloffArg,
+    /// Whether planes are seen from behind
+    #[arg(long, value_name = "SIDES", default_value = "auto")]
+    planes: PlanesArg,
+    /// On which side of the origin the `offset` of a plane is
+    #[arg(long, value_name = "SIGN", default_value = "auto")]
+    plane_sign: PlaneSignArg,
     /// Look for meshes and pictures here too; may be repeated
     #[arg(long = "asset-dir", value_name = "DIR")]
     asset_dirs: Vec<PathBuf>,
@@ -57,6 +74,16 @@ enum BasisArg {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
+enum AngleArg {
+    /// Its height.
+    Vertical,
+    /// Its width.
+    Horizontal,
+    /// Both, with pixels that are not square.
+    Both,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
 enum LightsArg {
     /// Keep it where programs of the dialect use it.
     Auto,
@@ -66,34 +93,66 @@ enum LightsArg {
     Drop,
 }
 
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum FalloffArg {
+    /// As in the dialect.
+    Auto,
+    /// Not at all (the course).
+    Constant,
+    /// 1 / (1 + k d²) (MIT, 2010 to 2015).
+    OnePlus,
+    /// 1 / (k d²) (MIT, 2016 and later).
+    InverseSquare,
+    /// 1 / (a + b d + e d²) (MIT, 2004).
+    Polynomial,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum PlanesArg {
+    /// As in the dialect.
+    Auto,
+    /// Those that the camera is behind are left out.
+    OneSided,
+    /// From both sides.
+    TwoSided,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum PlaneSignArg {
+    /// As in the dialect.
+    Auto,
+    /// normal · p = offset.
+    Same,
+    /// normal · p + offset = 0.
+    Opposite,
+}
+
 /// Converts a scene.
 pub fn run(args: &ConvertArgs) -> Exit {
     let name = args.input.file_name().map_or("scene".into(), |name| name.to_string_lossy().into_owned());
-    let text = match session::read_text(&args.input) {
-        Ok(text) => text,
+    let text = match session::read_bytes(&args.input) {
+        Ok(bytes) => decoded(&bytes),
         Err(reason) => return fail(reason),
     };
     let mut sources = SourceMap::default();
     if sources.add(args.input.display().to_string(), args.input.clone(), text.as_str().into()).is_none() {
         return fail("the scene is too large");
     }
-    let options = Options {
-        dialect: args.dialect,
-        strict: args.strict,
-        basis: args.basis.map(|basis| match basis {
-            BasisArg::Raw => Basis::Raw,
-            BasisArg::Orthonormal => Basis::Orthonormal,
-        }),
-        lights: match args.lights {
-            LightsArg::Auto => Lights::Auto,
-            LightsArg::Keep => Lights::Keep,
-            LightsArg::Drop => Lights::Drop,
-        },
-    };
-    let finder = DiskFinder::new(&args.input, args.asset_dirs.clone());
-    let mut conversion = crate::convert::convert(&text, &name, &options, Some(&finder));
+    let mut finder = DiskFinder::new(&args.input, args.asset_dirs.clone());
+    if let Some(output) = &args.output {
+        finder = finder.written_to(output);
+    }
+    let mut conversion = crate::convert::convert(&text, &name, &options(args), Some(&finder));
+    let found = conversion.scenes.len();
+    if let Some(wanted) = args.scene {
+        let wanted = wanted as usize;
+        if found > 0 && wanted > found {
+            return fail(format_args!("there is no scene {wanted}: the file holds {found}"));
+        }
+        conversion.scenes = conversion.scenes.into_iter().skip(wanted - 1).take(1).collect();
+    }
     if args.deny.is_some() && !conversion.problems.is_empty() {
-        conversion.snell = None; // as after an error, nothing is written
+        conversion.scenes.clear(); // as after an error, nothing is written
     }
     let written = write(args, &text, &conversion);
 
@@ -104,57 +163,155 @@ pub fn run(args: &ConvertArgs) -> Exit {
     let mut messages = Messages::new(&args.messages, false);
     messages.show(problems.into_report(&sources), args.deny);
     messages.finish();
-    match (written, conversion.snell) {
+    match (written, conversion.scenes.first()) {
         (Err(reason), _) => fail(reason),
         (Ok(()), None) => Exit::SceneWrong,
-        (Ok(()), Some(snell)) => {
+        (Ok(()), Some(first)) => {
             if args.output.is_none() {
-                print(snell);
+                print(&first.snell);
+                if conversion.scenes.len() > 1 {
+                    note(
+                        "only the first scene was printed: `-o` writes all of them, `--scene N` picks one\n",
+                    );
+                }
             }
             Exit::Done
         }
     }
 }
 
+/// The text of a file in whatever encoding: UTF-16 with its mark, else UTF-8; other bytes become signs of their own, for
+/// they stand in remarks only.
+fn decoded(bytes: &[u8]) -> String {
+    let units = |from: fn([u8; 2]) -> u16| -> String {
+        let units = bytes[2..].chunks_exact(2).map(|pair| from([pair[0], pair[1]]));
+        char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
+    };
+    match bytes {
+        [0xff, 0xfe, ..] => units(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => units(u16::from_be_bytes),
+        _ => String::from_utf8_lossy(bytes).into_owned(),
+    }
+}
+
+fn options(args: &ConvertArgs) -> Options {
+    Options {
+        dialect: args.dialect,
+        strict: args.strict,
+        basis: args.basis.map(|basis| match basis {
+            BasisArg::Raw => Basis::Raw,
+            BasisArg::Orthonormal => Basis::Orthonormal,
+        }),
+        angle: args.angle.map(|angle| match angle {
+            AngleArg::Vertical => Angle::Vertical,
+            AngleArg::Horizontal => Angle::Horizontal,
+            AngleArg::Both => Angle::Both,
+        }),
+        lights: match args.lights {
+            LightsArg::Auto => Lights::Auto,
+            LightsArg::Keep => Lights::Keep,
+            LightsArg::Drop => Lights::Drop,
+        },
+        falloff: match args.falloff {
+            FalloffArg::Auto => Falloff::Auto,
+            FalloffArg::Constant => Falloff::Constant,
+            FalloffArg::OnePlus => Falloff::OnePlus,
+            FalloffArg::InverseSquare => Falloff::InverseSquare,
+            FalloffArg::Polynomial => Falloff::Polynomial,
+        },
+        planes: match args.planes {
+            PlanesArg::Auto => Planes::Auto,
+            PlanesArg::OneSided => Planes::OneSided,
+            PlanesArg::TwoSided => Planes::TwoSided,
+        },
+        plane_sign: match args.plane_sign {
+            PlaneSignArg::Auto => PlaneSign::Auto,
+            PlaneSignArg::Same => PlaneSign::Same,
+            PlaneSignArg::Opposite => PlaneSign::Opposite,
+        },
+    }
+}
+
 /// Writes the files that were asked for, and says what was done.
 fn write(args: &ConvertArgs, text: &str, conversion: &Conversion) -> Result<(), String> {
-    if let (Some(path), Some(snell)) = (&args.output, &conversion.snell) {
-        output::replace(path, snell.as_bytes()).map_err(|error| error.to_string())?;
+    for (index, scene) in conversion.scenes.iter().enumerate() {
+        if let Some(path) = &args.output {
+            output::replace(&numbered(path, index), scene.snell.as_bytes())
+                .map_err(|error| error.to_string())?;
+        }
     }
     if let Some(path) = &args.report {
-        let json = format!("{:#}\n", as_json(text, conversion));
+        let json = format!("{:#}\n", as_json(args, text, conversion));
         output::replace(path, json.as_bytes()).map_err(|error| error.to_string())?;
     }
     if args.verbose {
         note(report::render(text, &conversion.report));
-    } else if !args.messages.quiet && conversion.snell.is_some() {
-        let to = args.output.as_deref().unwrap_or(Path::new("standard output")).display();
-        let detection = &conversion.detection;
-        note(format_args!(
-            "{} → {to}: dialect {}, because {}\n",
-            args.input.display(),
-            detection.dialect.id(),
-            detection.reason
-        ));
-        note(format_args!("  {}\n", report::summary(&conversion.report)));
+    } else if !args.messages.quiet {
+        for (index, scene) in conversion.scenes.iter().enumerate() {
+            let path = args.output.as_deref().map(|path| numbered(path, index));
+            let to = path.map_or("standard output".into(), |path| path.display().to_string());
+            let detection = &scene.detection;
+            note(format_args!(
+                "{} → {to}: dialect {}, because {}\n",
+                args.input.display(),
+                detection.dialect.id(),
+                detection.reason
+            ));
+        }
+        if !conversion.scenes.is_empty() {
+            note(format_args!("  {}\n", report::summary(&conversion.report)));
+        }
     }
     Ok(())
 }
 
-fn as_json(text: &str, conversion: &Conversion) -> serde_json::Value {
-    let mut line = 1;
-    let mut seen = 0;
-    let fates = conversion.report.iter().map(|fate| {
+/// `out.snell`, then `out-2.snell`, `out-3.snell`, ..
+fn numbered(path: &Path, index: usize) -> PathBuf {
+    if index == 0 {
+        return path.to_path_buf();
+    }
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().map_or(String::new(), |ending| format!(".{}", ending.to_string_lossy()));
+    path.with_file_name(format!("{stem}-{}{ending}", index + 1))
+}
+
+/// The fate of every token, in the order of the file.
+fn as_json(args: &ConvertArgs, text: &str, conversion: &Conversion) -> serde_json::Value {
+    let fates = report::complete(text, &conversion.report);
+    let mut counts = [("mapped", 0), ("approximated", 0), ("ignored", 0), ("dropped", 0)];
+    let (mut line, mut seen, mut total) = (1, 0, 0);
+    let mut tokens = Vec::new();
+    for fate in &fates {
         line += text[seen..fate.span.start].bytes().filter(|&byte| byte == b'\n').count();
         seen = fate.span.start;
+        let stretch = &text[fate.span.clone()];
         let (outcome, detail) = fate.outcome.parts();
-        json!({ "line": line, "start": fate.span.start, "end": fate.span.end,
-                "text": &text[fate.span.clone()], "fate": outcome, "detail": detail })
+        let count = report::tokens(stretch).count();
+        total += count;
+        for (name, sum) in &mut counts {
+            *sum += if *name == outcome { count } else { 0 };
+        }
+        tokens.push(json!({ "line": line, "start": fate.span.start, "end": fate.span.end, "text": stretch,
+                            "count": count, "fate": outcome, "detail": detail }));
+    }
+    let scenes = conversion.scenes.iter().enumerate().map(|(index, scene)| {
+        let output = args.output.as_deref().map(|path| numbered(path, index).display().to_string());
+        json!({ "output": output, "dialect": scene.detection.dialect.id(), "reason": scene.detection.reason })
+    });
+    let problems = conversion.problems.iter().map(|problem| {
+        use miette::Diagnostic;
+        let at = problem.labels().and_then(|mut labels| labels.next()).map(|label| label.offset());
+        json!({ "code": problem.code().map(|code| code.to_string()), "message": problem.to_string(),
+                "error": problem.is_error(), "start": at })
     });
     json!({
-        "dialect": conversion.detection.dialect.id(),
-        "reason": conversion.detection.reason,
-        "tokens": fates.collect::<Vec<_>>(),
+        "scenes": scenes.collect::<Vec<_>>(),
+        "token_count": report::tokens(text).count(),
+        "accounted": total,
+        "counts": counts.into_iter().map(|(name, sum)| (name.to_string(), json!(sum)))
+            .collect::<serde_json::Map<_, _>>(),
+        "problems": problems.collect::<Vec<_>>(),
+        "tokens": tokens,
     })
 }
 

@@ -118,16 +118,26 @@ const STDIN: &str = "standard input";
 /// # Errors
 /// Why it cannot be read, in a sentence.
 pub fn read_text(path: &Path) -> Result<String, String> {
-    let name = if path.as_os_str() == "-" { STDIN.to_owned() } else { format!("`{}`", path.display()) };
-    let bytes = read(path).map_err(|reason| {
-        let near = near(path).map_or(String::new(), |near| format!("; did you mean `{}`?", near.display()));
-        format!("{name} cannot be read: {reason}{near}")
-    })?;
-    String::from_utf8(bytes).map_err(|error| {
+    String::from_utf8(read_bytes(path)?).map_err(|error| {
         let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = good.iter().filter(|&&byte| byte == b'\n').count() + 1;
-        format!("{name} is not a text in UTF-8 (line {line}): save it as UTF-8")
+        format!("{} is not a text in UTF-8 (line {line}): save it as UTF-8", name_of(path))
     })
+}
+
+/// The bytes of a file, or of standard input for `-`.
+///
+/// # Errors
+/// Why it cannot be read, in a sentence.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
+    read(path).map_err(|reason| {
+        let near = near(path).map_or(String::new(), |near| format!("; did you mean `{}`?", near.display()));
+        format!("{} cannot be read: {reason}{near}", name_of(path))
+    })
+}
+
+fn name_of(path: &Path) -> String {
+    if path.as_os_str() == "-" { STDIN.to_owned() } else { format!("`{}`", path.display()) }
 }
 
 /// The file beside `path` whose name is most like it, where `path` itself is missing.

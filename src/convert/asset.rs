@@ -46,6 +46,8 @@ const HEAD: u64 = 512;
 pub struct DiskFinder {
     scene_folder: PathBuf,
     asset_folders: Vec<PathBuf>,
+    /// What the scene's own folder is called: `.`, unless the converted scene goes elsewhere.
+    scene_root: String,
 }
 
 impl DiskFinder {
@@ -53,13 +55,26 @@ impl DiskFinder {
     pub fn new(scene: &Path, asset_folders: Vec<PathBuf>) -> Self {
         let absolute = std::path::absolute(scene).unwrap_or_else(|_| scene.to_path_buf());
         let scene_folder = absolute.parent().map(Path::to_path_buf).unwrap_or_default();
-        Self { scene_folder, asset_folders }
+        Self { scene_folder, asset_folders, scene_root: ".".into() }
+    }
+
+    /// The same for a converted scene at `output`: in another folder it finds nothing beside it.
+    pub fn written_to(mut self, output: &Path) -> Self {
+        let folder = std::path::absolute(output).ok().and_then(|path| path.parent().map(Path::to_path_buf));
+        if folder.is_some_and(|folder| folder != self.scene_folder) {
+            self.scene_root = self.scene_folder.display().to_string();
+        }
+        self
     }
 
     /// The folder of the scene and those above it, each with its name as seen from the scene.
     fn ancestors(&self) -> impl Iterator<Item = (String, PathBuf)> {
         self.scene_folder.ancestors().enumerate().map(|(up, folder)| {
-            let name = if up == 0 { ".".to_string() } else { vec![".."; up].join("/") };
+            let name = match (up, self.scene_root.as_str()) {
+                (0, root) => root.to_string(),
+                (_, ".") => vec![".."; up].join("/"),
+                _ => folder.display().to_string(),
+            };
             (name, folder.to_path_buf())
         })
     }

@@ -4,6 +4,7 @@
 //! shading follows each material's own.
 
 use super::parse::{Block, Node};
+use super::words::blocks;
 
 /// A dialect, named after what makes it recognisable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,6 +23,8 @@ pub enum Dialect {
     Typed,
     /// One number per lobe: `diff` `refl` `refr`, `spec_factor`, ..
     Factors,
+    /// A hybrid of the course's and MIT's: which colours a material has implies its kind.
+    Implied,
     /// MIT 6.837 of 2003: materials inline in groups, braces round arguments.
     Mit2003,
     /// MIT 6.837 of 2004: `exponent`, `reflectiveColor`, solid textures, orthographic cameras.
@@ -34,7 +37,7 @@ pub enum Dialect {
 
 impl Dialect {
     /// Every dialect.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Arsenal,
         Self::Pa1,
         Self::Weights,
@@ -42,6 +45,7 @@ impl Dialect {
         Self::Flags,
         Self::Typed,
         Self::Factors,
+        Self::Implied,
         Self::Mit2003,
         Self::Mit2004,
         Self::Mit2010,
@@ -58,6 +62,7 @@ impl Dialect {
             Self::Flags => "flags",
             Self::Typed => "typed",
             Self::Factors => "factors",
+            Self::Implied => "implied",
             Self::Mit2003 => "mit2003",
             Self::Mit2004 => "mit2004",
             Self::Mit2010 => "mit2010",
@@ -80,6 +85,7 @@ impl Dialect {
             Self::Flags => "the dialect of bare material words",
             Self::Typed => "the dialect of typed material blocks",
             Self::Factors => "the dialect of numeric factors",
+            Self::Implied => "the hybrid dialect of implied materials",
             Self::Mit2003 => "MIT 6.837 of 2003",
             Self::Mit2004 => "MIT 6.837 of 2004",
             Self::Mit2010 => "MIT 6.837 of 2010 to 2015",
@@ -121,7 +127,8 @@ pub fn of_material(material: &Block<'_>) -> Option<(Dialect, String)> {
         return Some((Dialect::Mit2004, format!("a material is a `{name}`")));
     }
     if !["Material", "PhongMaterial"].contains(&name) {
-        return Some((Dialect::Typed, format!("a material is a `{name}`")));
+        let is_typed = blocks::material(name).is_some_and(|kind| kind != blocks::Material::Plain);
+        return is_typed.then(|| (Dialect::Typed, format!("a material is a `{name}`")));
     }
     if let Some(values) = material.after("type") {
         return Some(by_type(values));
@@ -139,9 +146,12 @@ pub fn of_material(material: &Block<'_>) -> Option<(Dialect, String)> {
         return Some((Dialect::Mit2004, because(word)));
     }
     if let Some(word) = has(&["refractionIndex", "lightColor"]) {
-        return Some((Dialect::Mit2010, because(word)));
+        return Some((Dialect::Implied, because(word)));
     }
-    if let Some(word) = integer_reflection(material).or_else(|| has(&["emissionColor"])) {
+    // The renderer of arsenal.txt takes `color` alone.
+    let is_foreign = has(&["diffuseColor", "specularColor", "emission"]).is_some();
+    let telling = || integer_reflection(material).or_else(|| has(&["emissionColor"]));
+    if let Some(word) = (!is_foreign).then(telling).flatten() {
         return Some((Dialect::Arsenal, because(word)));
     }
     if let Some(word) = has(&["refr", "emission"]) {
@@ -236,7 +246,8 @@ fn integer_reflection(material: &Block<'_>) -> Option<&'static str> {
 }
 
 fn materials<'a, 't>(tree: &'a Block<'t>) -> impl Iterator<Item = &'a Block<'t>> {
-    tree.blocks().filter(|block| block.name() == "Materials").flat_map(Block::blocks)
+    let is_list = |block: &&Block<'_>| blocks::top(block.name()) == Some(blocks::Top::Materials);
+    tree.blocks().filter(is_list).flat_map(Block::blocks)
 }
 
 /// Whether any block inside satisfies `test`. Nesting is bounded by the parser.

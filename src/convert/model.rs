@@ -2,19 +2,29 @@
 //!
 //! Lengths are in the file's own unit, angles in degrees, colours linear.
 
-use super::dialect::Dialect;
+use super::dialect::Detection;
 use super::parse::Span;
 use crate::math::DVec3;
 
 /// A whole scene.
 #[derive(Debug)]
 pub struct Scene {
-    pub dialect: Dialect,
+    pub detection: Detection,
     pub camera: Option<Camera>,
     pub background: Background,
     pub lights: Vec<Light>,
     pub materials: Vec<Material>,
     pub objects: Vec<Object>,
+    pub settings: Settings,
+    /// The folders, seen from the scene's, from which its files were found.
+    pub asset_roots: Vec<String>,
+}
+
+/// What the file says to the renderer.
+#[derive(Debug, Default)]
+pub struct Settings {
+    /// Samples in a pixel.
+    pub samples: Option<u32>,
 }
 
 /// A pinhole camera, perhaps with a lens.
@@ -23,12 +33,15 @@ pub struct Camera {
     pub center: DVec3,
     pub direction: DVec3,
     pub up: DVec3,
-    /// The vertical field of view.
     pub angle: f64,
+    /// Whether `angle` is the horizontal field of view rather than the vertical one.
+    pub is_across: bool,
     /// Width and height in pixels; some dialects leave them to the command line.
     pub size: Option<(u32, u32)>,
     pub lens: Option<Lens>,
+    /// What is to be said of it as a whole, and of the angle.
     pub notes: Vec<String>,
+    pub angle_notes: Vec<String>,
 }
 
 /// A thin lens.
@@ -44,16 +57,20 @@ pub struct Lens {
 #[derive(Debug)]
 pub struct Background {
     pub color: DVec3,
+    /// A picture of everything around, in its place.
+    pub picture: Option<Asset>,
     pub notes: Vec<String>,
 }
 
 /// A light of the `Lights` block.
 #[derive(Debug)]
 pub enum Light {
-    /// `color` is what the original adds at every distance.
+    /// The original adds `color / (a + b d + e d^2)` at distance d, for `falloff` (a, b, e).
     Point {
         position: DVec3,
         color: DVec3,
+        falloff: DVec3,
+        notes: Vec<String>,
     },
     Sphere {
         center: DVec3,
@@ -65,11 +82,17 @@ pub enum Light {
         edge_u: DVec3,
         edge_v: DVec3,
         radiance: DVec3,
+        notes: Vec<String>,
     },
     /// `direction` is the way the light travels.
     Directional {
         direction: DVec3,
         color: DVec3,
+    },
+    /// An object that glows.
+    Glowing {
+        object: Box<Object>,
+        radiance: DVec3,
     },
 }
 
@@ -98,7 +121,7 @@ pub enum Look {
     },
     /// GGX with alpha = roughness squared.
     Metal {
-        color: DVec3,
+        color: Texture,
         roughness: f64,
     },
     Glass {
@@ -108,14 +131,41 @@ pub enum Look {
     Emissive {
         radiance: DVec3,
     },
-    /// Weights, not all zero, of a diffuse, a mirror and a glass lobe of one colour.
-    Mix {
-        weights: [f64; 3],
-        color: Texture,
-        ior: f64,
+    /// Lobes with their shares, which are above 0 and add up to 1.
+    Mix(Vec<(f64, Look)>),
+    /// Two materials of the scene, by their indices, in solid cells of this size or evenly blended.
+    Solid {
+        parts: [usize; 2],
+        cells: Option<f64>,
     },
     /// Stands in for a material that is not read.
     Placeholder,
+}
+
+impl Look {
+    /// The colour that a picture can stand for, of every lobe that has one.
+    pub fn textures(&mut self) -> Vec<&mut Texture> {
+        match self {
+            Self::Diffuse { color } | Self::Mirror { color } | Self::Metal { color, .. } => vec![color],
+            Self::Phong { diffuse, .. } => vec![diffuse],
+            Self::Mix(lobes) => lobes.iter_mut().flat_map(|(_, lobe)| lobe.textures()).collect(),
+            Self::Glass { .. } | Self::Emissive { .. } | Self::Solid { .. } | Self::Placeholder => Vec::new(),
+        }
+    }
+
+    /// The other materials of the scene that it is made of.
+    pub fn parts(&self) -> impl Iterator<Item = usize> + use<> {
+        let parts = match self {
+            Self::Solid { parts, .. } => parts.to_vec(),
+            _ => Vec::new(),
+        };
+        parts.into_iter()
+    }
+
+    /// Whether it sends out light.
+    pub fn shines(&self) -> bool {
+        matches!(self, Self::Emissive { .. })
+    }
 }
 
 /// A colour, perhaps with a picture in its place.
@@ -136,8 +186,8 @@ impl Texture {
 pub struct Asset {
     /// As written, with slashes.
     pub path: String,
-    /// Whether it is known not to be there.
-    pub missing: bool,
+    /// Whether the renderer finds it without being told where to look.
+    pub beside: bool,
     /// Width and height in pixels, if it is a picture whose header was read.
     pub size: Option<(u32, u32)>,
 }
@@ -148,6 +198,8 @@ pub struct Object {
     pub shape: Shape,
     /// Index into the scene's materials; groups have none of their own.
     pub material: Option<usize>,
+    /// A picture for this object alone, in the place of its material's colour.
+    pub picture: Option<Asset>,
     /// Applied from first to last.
     pub steps: Vec<Step>,
     pub notes: Vec<String>,
@@ -155,8 +207,13 @@ pub struct Object {
 }
 
 impl Object {
-    /// The picture on a plane, if it has one.
-    pub fn picture(&self) -> Option<&PlanePicture> {
+    /// The shape where it was written, without material, transform and remarks.
+    pub fn new(shape: Shape, span: Span) -> Self {
+        Self { shape, material: None, picture: None, steps: Vec::new(), notes: Vec::new(), span }
+    }
+
+    /// The picture on a plane, if it has one that is laid out by coordinates.
+    pub fn laid_picture(&self) -> Option<&PlanePicture> {
         match &self.shape {
             Shape::Plane { picture, .. } => picture.as_ref(),
             _ => None,
@@ -207,6 +264,8 @@ pub enum Shape {
     },
     Mesh {
         file: Asset,
+        /// Whether normals are interpolated; unless it is said, the dialect decides.
+        smooth: bool,
     },
     Revolve {
         profile: Profile,
@@ -239,6 +298,8 @@ pub enum Curve {
     Bezier,
     /// Uniform cubic B-spline.
     Bspline,
+    /// Straight lines from point to point.
+    Polyline,
 }
 
 /// One step of a transform.

@@ -1,6 +1,7 @@
 //! Text → raw tree: words, numbers, lists and blocks with their places, no meaning yet.
 
-use super::error::{Mistake, Notebook};
+use super::mistake::Mistake;
+use super::notebook::Notebook;
 use pest::Parser;
 use pest::iterators::Pair;
 
@@ -12,6 +13,9 @@ pub const MAX_NESTING: usize = 256;
 
 /// The longest text that is read, in bytes. The parser takes about thirty times as much memory.
 pub const MAX_BYTES: usize = 16 << 20;
+
+/// The largest number that is read as one.
+const LARGEST: f64 = 1e15;
 
 #[derive(pest_derive::Parser)]
 #[grammar = "../grammar/arsenal.pest"]
@@ -104,12 +108,13 @@ impl<'t> Node<'t> {
     }
 }
 
-/// Reads a text as a nameless block that holds everything. What is not balanced is noted; the rest is read all the same.
-pub fn parse<'t>(text: &'t str, notes: &mut Notebook) -> Block<'t> {
+/// Reads a text as a nameless block that holds everything, and tells where its comments are. What is not balanced is
+/// noted; the rest is read all the same.
+pub fn parse<'t>(text: &'t str, notes: &mut Notebook) -> (Block<'t>, Vec<Span>) {
     let nothing = || Block { name: None, body: Vec::new(), span: 0..text.len(), head: 0..0 };
     if text.len() > MAX_BYTES {
         notes.note(Mistake::TooLarge { bytes: text.len(), limit: MAX_BYTES });
-        return nothing();
+        return (nothing(), Vec::new());
     }
     match Grammar::parse(Rule::scene, text) {
         Ok(mut pairs) => {
@@ -117,7 +122,7 @@ pub fn parse<'t>(text: &'t str, notes: &mut Notebook) -> Block<'t> {
             let mut builder = Builder { notes, comments: Vec::new() };
             let body = builder.nodes(scene.into_inner(), 0);
             builder.note_comments();
-            Block { body, ..nothing() }
+            (Block { body, ..nothing() }, builder.comments)
         }
         // `scene` matches every text, so the parser can only have run out of stack.
         Err(error) => {
@@ -125,7 +130,7 @@ pub fn parse<'t>(text: &'t str, notes: &mut Notebook) -> Block<'t> {
                 pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => at,
             };
             notes.note(Mistake::TooDeep { limit: MAX_NESTING, at: (at, 0).into() });
-            nothing()
+            (nothing(), Vec::new())
         }
     }
 }
@@ -185,7 +190,7 @@ impl Builder<'_> {
         Some(block)
     }
 
-    /// `list = { open_bracket ~ (number | word)* ~ (close_bracket | missing_bracket) }`
+    /// `list = { open_bracket ~ (separator | number | word)* ~ (close_bracket | missing_bracket) }`
     fn list<'t>(&mut self, pair: Pair<'t, Rule>, depth: usize) -> List<'t> {
         let mut list = List { items: Vec::new(), span: span(&pair) };
         for part in pair.into_inner() {
@@ -220,11 +225,11 @@ fn word<'t>(pair: &Pair<'t, Rule>) -> Word<'t> {
     Word { text: pair.as_str(), span: span(pair) }
 }
 
-/// A number, in double precision but with the range of the original's single precision: what is too small for it
-/// is 0, and what is too large stays a word; whoever wants a number there says so.
+/// A number, in double precision. What is too small for the original's single precision is 0, and what is larger than
+/// anything in a scene stays a word; whoever wants a number there says so.
 fn number<'t>(pair: &Pair<'t, Rule>) -> Node<'t> {
     match pair.as_str().parse::<f64>() {
-        Ok(value) if value.abs() <= f64::from(f32::MAX) => {
+        Ok(value) if value.abs() <= LARGEST => {
             let value = if value as f32 == 0.0 { 0.0 } else { value };
             Node::Number(Number { value, text: pair.as_str(), span: span(pair) })
         }

@@ -63,6 +63,56 @@ pub fn summary(fates: &[Fate]) -> String {
     counts.join(", ")
 }
 
+/// The fates of every token: those of the report, and between them the braces that end blocks and the separators.
+pub fn complete(text: &str, fates: &[Fate]) -> Vec<Fate> {
+    let mut all = Vec::new();
+    let mut seen = 0;
+    for fate in fates {
+        all.extend(punctuation(text, seen..fate.span.start));
+        all.push(fate.clone());
+        seen = fate.span.end;
+    }
+    all.extend(punctuation(text, seen..text.len()));
+    all
+}
+
+/// What stands between the words of a file and is no white space.
+fn punctuation(text: &str, gap: Span) -> impl Iterator<Item = Fate> + '_ {
+    let start = gap.start;
+    tokens(&text[gap]).map(move |token| {
+        let span = start + token.start..start + token.end;
+        let outcome = match &text[span.clone()] {
+            "}" | "]" => Outcome::Mapped("ends a block".into()),
+            "{" | "[" => Outcome::Mapped("begins a block".into()),
+            separator if separator.chars().all(|c| ",;".contains(c)) => {
+                Outcome::Ignored("means nothing between values".into())
+            }
+            _ => Outcome::Dropped("lost with what it belongs to".into()),
+        };
+        Fate { span, outcome }
+    })
+}
+
+/// The tokens of a stretch: braces and brackets, and runs of other characters that are no white space.
+pub fn tokens(text: &str) -> impl Iterator<Item = Span> + '_ {
+    let mut rest = 0;
+    std::iter::from_fn(move || {
+        let is_space = |c: char| c.is_ascii_whitespace() || matches!(c, '\u{0B}' | '\u{FEFF}');
+        let is_brace = |c: char| "{}[]".contains(c);
+        let start = rest + text[rest..].find(|c| !is_space(c))?;
+        let first = text[start..].chars().next()?;
+        let end = match is_brace(first) {
+            true => start + first.len_utf8(),
+            false => {
+                let length = text[start..].find(|c| is_space(c) || is_brace(c));
+                length.map_or(text.len(), |length| start + length)
+            }
+        };
+        rest = end;
+        Some(start..end)
+    })
+}
+
 /// The words of a stretch on one line, at most 36 characters.
 fn excerpt(text: &str) -> String {
     const WIDTH: usize = 36;

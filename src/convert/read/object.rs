@@ -1,125 +1,238 @@
-//! Groups, shapes and transforms.
+//! Groups and their objects: what kind each is, and what it is made of.
 
-use super::shape::Anchor::{Corner, Middle};
-use super::{Dialect, Mistake, Reader, vocab};
-use crate::convert::fields::{Field, Part};
-use crate::convert::model::{Look, Object, Shape, Step};
+use super::light::is_light;
+use super::{Dialect, Mistake, Reader};
+use crate::convert::fields::{Field, Fields, Part};
+use crate::convert::model::{Look, Object, Shape};
 use crate::convert::parse::{Block, Span};
+use crate::convert::words::{GROUP, SHAPE, blocks};
 use crate::math::DVec3;
-use std::collections::VecDeque;
-
-/// Objects of dialects that are not read yet.
-const UNREAD_OBJECTS: &[&str] = &[
-    "Rectangle",
-    "XYRectangle",
-    "XZRectangle",
-    "YZRectangle",
-    "Square",
-    "Area",
-    "Cylinder",
-    "Torus",
-    "Parametric",
-    "MovingSphere",
-    "MotionSphere",
-    "SphereMoving",
-    "MovingObj",
-    "TinyObj",
-    "Bezier",
-    "Grid",
-];
 
 impl Reader<'_> {
     /// The objects of a group. `MaterialIndex` changes the reader's state, which outlives the group.
     pub(super) fn group(&mut self, block: Block<'_>) -> Vec<Object> {
         self.log.mapped(&block.head, "objects, in their order");
+        let parts = self.log.parts(block.body, &GROUP);
+        let (objects, counts, found) = self.objects_of(parts);
+        for count in counts {
+            self.log.check_count(&count, found);
+        }
+        objects
+    }
+
+    /// Objects with the counts among them, which nobody checks where there is no group.
+    pub(super) fn group_parts(&mut self, parts: Vec<Part<'_>>) -> (Vec<Object>, usize) {
+        let (objects, counts, found) = self.objects_of(parts);
+        for count in counts {
+            self.log.ignored(&count.span, "counts nothing");
+        }
+        (objects, found)
+    }
+
+    fn objects_of<'t>(&mut self, parts: Vec<Part<'t>>) -> (Vec<Object>, Vec<Field<'t>>, usize) {
         let (mut objects, mut counts, mut found) = (Vec::new(), Vec::new(), 0);
-        for part in self.log.parts(block.body, vocab::GROUP) {
+        for part in parts {
             match part {
-                Part::Field(field) if field.key == "MaterialIndex" => self.set_material(&field),
-                Part::Field(field) if field.known => counts.push(field),
-                Part::Field(field) => self.log.unknown_field(&field, "Group", vocab::GROUP),
-                Part::Block(block) if block.name() == "Material" => self.inline_material(block),
+                Part::Field(field) if field.role == "MaterialIndex" => self.set_material(&field),
+                Part::Field(field) if field.role == "count" => counts.push(field),
+                Part::Field(field) if field.role == "obj_file" && !field.guessed => {
+                    found += 1;
+                    objects.extend(self.bare_mesh(&field));
+                }
+                Part::Field(field) => self.log.unknown_field(&field, "Group", &GROUP),
+                Part::Block(block) if is_inline_material(&block) => self.inline_material(block),
+                Part::Block(block) if is_light(block.name()) => {
+                    let light = self.light(block);
+                    self.stray_lights.extend(light);
+                }
                 Part::Block(block) => {
                     found += 1;
                     objects.extend(self.object(block));
                 }
             }
         }
-        for count in counts {
-            self.log.check_counts(&count, found);
-        }
-        objects
+        (objects, counts, found)
     }
 
     /// The original admits the index one past the last material; a placeholder stands in for what it reads there.
-    fn set_material(&mut self, field: &Field<'_>) {
+    pub(super) fn set_material(&mut self, field: &Field<'_>) {
         if !field.sound {
             self.log.dropped(&field.span, "malformed");
             self.material_index.get_or_insert(self.materials.len()); // the shapes that follow stay silent
             return;
         }
         self.log.mapped(&field.span, "`material` of the objects that follow");
+        self.material_index = Some(self.valid_material(field));
+    }
+
+    /// The index of a material; the one past the last is that of a placeholder.
+    fn valid_material(&mut self, field: &Field<'_>) -> usize {
         let (index, count) = (field.number(0).trunc() as i64, self.materials.len());
         let at = field.span.clone().into();
         match usize::try_from(index) {
-            Ok(valid) if valid < count => self.material_index = Some(valid),
-            Ok(end) if end == count => {
-                self.log.notes.note(Mistake::IndexAtCount { index, at });
-                self.material_index = Some(end);
-            }
-            _ => {
-                self.log.notes.note(Mistake::IndexOutOfRange { index, count, at });
-                self.material_index = Some(count); // so that the shapes that follow do not complain, too
-            }
+            Ok(valid) if valid < count => return valid,
+            Ok(end) if end == count && count > 0 => self.log.notes.note(Mistake::IndexAtCount { index, at }),
+            _ => self.log.notes.note(Mistake::IndexOutOfRange { index, count, at }),
         }
+        self.log.approximated(&field.span, "a grey placeholder");
+        count
     }
 
     /// The oldest dialect has no indices: a `Material { .. }` in a group holds for the objects that follow it.
-    fn inline_material(&mut self, block: Block<'_>) {
+    pub(super) fn inline_material(&mut self, block: Block<'_>) {
         let material = self.material(block);
         self.material_index = Some(self.materials.len());
         self.materials.push(material);
     }
 
-    fn object(&mut self, block: Block<'_>) -> Option<Object> {
-        let span = block.head.clone();
-        let name = block.name().to_string();
-        let shape = match name.as_str() {
-            "Group" => return Some(Object { shape: Shape::Group(self.group(block)), ..plain(span) }),
-            "Transform" => return self.transform(block),
-            "Sphere" => self.sphere(block)?,
-            "Plane" => self.plane(block)?,
-            "Triangle" => self.triangle(block)?,
-            "Quad" => self.quad(block, ["origin", "u", "v"], Corner)?,
-            "Rectangle" if block.after("point").is_some() => self.quad(block, ["point", "x", "y"], Corner)?,
-            "Rectangle" if block.after("x_axis").is_some() => {
-                self.quad(block, ["position", "x_axis", "y_axis"], Middle)?
+    pub(super) fn object(&mut self, block: Block<'_>) -> Option<Object> {
+        let span = block.span.clone();
+        let object = self.object_of(block);
+        if object.is_none() {
+            self.log.lose(&span, "left out with its object");
+        }
+        object
+    }
+
+    fn object_of(&mut self, block: Block<'_>) -> Option<Object> {
+        let (name, head) = (block.name().to_string(), block.head.clone());
+        match blocks::object(&name) {
+            Some(blocks::Object::Transform) => self.transform(block),
+            Some(blocks::Object::Group) => Some(Object::new(Shape::Group(self.group(block)), head)),
+            Some(blocks::Object::Curve) => self.leave_out(&block, "a curve has no surface"),
+            Some(blocks::Object::Medium) => self.leave_out(&block, "there are no participating media"),
+            Some(blocks::Object::Grid) => {
+                self.log.drop_all(&block.span, "speeds up the original");
+                None
             }
-            "Disk" => self.disk(block)?,
-            "Cube" => self.cuboid(block)?,
-            "TriangleMesh" => return self.mesh(block),
-            "RevSurface" => self.revolve(block)?,
-            "BezierCurve" | "BsplineCurve" => {
-                self.not_convertible(&block, "a curve has no surface");
-                return None;
+            Some(blocks::Object::Formula) => {
+                self.leave_out(&block, "its surface is a formula in one program")
             }
-            "FogSphere" | "Medium" => {
-                self.not_convertible(&block, "there are no participating media");
-                return None;
+            Some(kind) => self.shape(block, kind),
+            None if holds_objects(&block) => {
+                self.guess_block(&name, "a group", &head);
+                Some(Object::new(Shape::Group(self.group(block)), head))
             }
-            other if UNREAD_OBJECTS.contains(&other) => {
-                self.not_read(&block, "left out, braces and all");
-                return None;
-            }
-            _ => {
-                self.log.unknown_block(&block, "in `Group`".into(), vocab::OBJECTS);
-                return None;
-            }
+            None => self.unnamed_shape(block),
+        }
+    }
+
+    /// A block of an unknown name is what its fields make of it.
+    fn unnamed_shape(&mut self, block: Block<'_>) -> Option<Object> {
+        let words: Vec<&str> = block.words().filter_map(|word| Some(SHAPE.find(word)?.role)).collect();
+        let has = |roles: &[&str]| roles.iter().all(|role| words.contains(role));
+        let kind = if has(&["obj_file"]) {
+            (blocks::Object::Mesh, "a mesh")
+        } else if has(&["p1", "p2", "p3"]) {
+            (blocks::Object::Triangle, "a triangle")
+        } else if has(&["center", "normal", "radius"]) {
+            (blocks::Object::Disk, "a disk")
+        } else if has(&["normal", "offset"]) {
+            (blocks::Object::Plane, "a plane")
+        } else if has(&["center", "radius"]) && !words.contains(&"length v") {
+            (blocks::Object::Sphere, "a sphere")
+        } else if has(&["min", "max"]) {
+            (blocks::Object::Box, "a box")
+        } else if has(&["profile"]) {
+            (blocks::Object::Revolve, "a surface of revolution")
+        } else {
+            let usual = ["Group", "Sphere", "Plane", "Triangle", "TriangleMesh", "Transform", "RevSurface"];
+            self.log.unknown_block(&block, "in `Group`".into(), &usual);
+            return None;
         };
-        let material = self.material_of(&name, &span);
-        let mut object = Object { shape, material, ..plain(span) };
+        self.guess_block(block.name(), kind.1, &block.head);
+        self.shape(block, kind.0)
+    }
+
+    /// A shape with its material and all that else may stand in its block.
+    fn shape(&mut self, block: Block<'_>, kind: blocks::Object) -> Option<Object> {
+        let name = block.name().to_string();
+        let mut fields = self.log.fields(block, &SHAPE);
+        let own_material = fields.take_block(|name| is_material(name));
+        let head = fields.head.clone();
+        let mut object = match kind {
+            blocks::Object::Mesh => self.mesh(&mut fields),
+            _ => self.surface(&mut fields, kind).map(|shape| Object::new(shape, head.clone())),
+        };
+        if let Some(object) = &mut object {
+            self.object_picture(&mut fields, object);
+            self.move_object(&mut fields, object);
+        }
+        let index = self.log.take(&mut fields, "material");
+        let why = "how the original finds or draws it, not what it is";
+        self.log.put_aside(&mut fields, &["speed-up"], why);
+        let frame = "a frame of the picture, which is laid on by uv coordinates";
+        self.log.put_aside(&mut fields, &["picture frame"], frame);
+        self.log.finish(fields);
+
+        let Some(mut object) = object else {
+            if let Some(block) = own_material {
+                self.log.dropped(&block.span, "left out with its object");
+            }
+            return None;
+        };
+        object.material = match (own_material, index) {
+            (Some(block), _) => {
+                let in_force = self.material_index;
+                self.inline_material(block);
+                std::mem::replace(&mut self.material_index, in_force)
+            }
+            (None, Some(field)) => {
+                self.log.mapped(&field.span, "`material`");
+                Some(self.valid_material(&field))
+            }
+            (None, None) => self.material_of(&name, &head),
+        };
         self.note_dark_lamp(&mut object);
+        if object.material.and_then(|index| self.materials.get(index)).is_some_and(|it| it.look.shines()) {
+            self.bound(&mut object);
+        }
         Some(object)
+    }
+
+    fn surface(&mut self, fields: &mut Fields<'_>, kind: blocks::Object) -> Option<Shape> {
+        match kind {
+            blocks::Object::Plane => self.plane(fields),
+            blocks::Object::Triangle => self.triangle(fields),
+            blocks::Object::Quad => self.quad(fields),
+            blocks::Object::Disk => self.disk(fields),
+            blocks::Object::Box => self.cuboid(fields),
+            blocks::Object::Cylinder => self.cylinder(fields),
+            blocks::Object::Torus => self.torus(fields),
+            blocks::Object::Revolve => self.revolve(fields),
+            _ => self.sphere(fields),
+        }
+    }
+
+    /// A shape inside a light, which needs no material.
+    pub(super) fn shape_of_light(&mut self, block: Block<'_>) -> Option<Object> {
+        let in_force = self.material_index.replace(0);
+        let object = self.object(block);
+        self.material_index = in_force;
+        object.map(without_material)
+    }
+
+    /// Motion, which stands still at the middle of the interval in which the shutter is open, usually 0 to 1.
+    fn move_object(&mut self, fields: &mut Fields<'_>, object: &mut Object) {
+        let Some(velocity) = self.log.take(fields, "velocity") else { return };
+        let Some(way) = self.three(&velocity) else { return };
+        self.log.approximated(&velocity.span, "stands still half way through its motion");
+        self.still(object, 0.5 * way, &velocity.span);
+    }
+
+    /// Moves an object by half of its motion, and says so.
+    pub(super) fn still(&mut self, object: &mut Object, by: DVec3, at: &Span) {
+        if by == DVec3::ZERO {
+            return;
+        }
+        self.note_not_read("motion", at, "the object stands still half way");
+        object
+            .notes
+            .push("Moves in the original while the shutter is open; here it stands still half way.".into());
+        match &mut object.shape {
+            Shape::Sphere { center, .. } => *center += by,
+            _ => object.steps.push(crate::convert::model::Step::Translate(by)),
+        }
     }
 
     /// In the dialect of arsenal.txt only spheres that emit red 12 send photons; other lamps merely look bright.
@@ -129,12 +242,12 @@ impl Reader<'_> {
         let is_sphere = matches!(object.shape, Shape::Sphere { .. });
         if self.dialect == Dialect::Arsenal && !(is_sphere && (radiance.x - 12.0).abs() < 0.001) {
             let help = "it sends photons only from spheres whose `emissionColor` is 12 in red";
-            self.differs("this lamp looks bright in the original but lights nothing", &object.span, help);
+            self.log.differs("this lamp looks bright in the original but lights nothing", &object.span, help);
             object.notes.push("The original shows this lamp but sends no light from it.".into());
         }
     }
 
-    /// The material in force; a shape before the first `MaterialIndex` is a mistake.
+    /// The material in force; a shape before the first `MaterialIndex` is a mistake, and grey.
     pub(super) fn material_of(&mut self, shape: &str, at: &Span) -> Option<usize> {
         if self.material_index.is_none() {
             self.log.notes.note(Mistake::NoMaterial { shape: shape.into(), at: at.clone().into() });
@@ -142,90 +255,31 @@ impl Reader<'_> {
         self.material_index
     }
 
-    fn not_convertible(&mut self, block: &Block<'_>, why: &'static str) {
-        self.log.dropped(&block.span, why);
-        let what = format!("`{}`", block.name());
-        self.log.notes.note(Mistake::NotConvertible { what, why, at: block.head.clone().into() });
-    }
-
-    /// `Transform { operations object }`: each operation multiplies on the right, so the last one acts first.
-    fn transform(&mut self, block: Block<'_>) -> Option<Object> {
-        let span = block.head.clone();
-        self.log.mapped(&span, "`transform`");
-        let mut factors = VecDeque::new(); // as in a product of matrices, the leftmost acting last
-        let mut objects: Vec<(Span, Option<Object>)> = Vec::new();
-        for part in self.log.parts(block.body, vocab::TRANSFORM) {
-            match part {
-                Part::Field(field) if field.known && field.sound => self.operation(&field, &mut factors),
-                Part::Field(field) => self.log.unknown_field(&field, "Transform", vocab::TRANSFORM),
-                Part::Block(block) => {
-                    let head = block.head.clone();
-                    if let Some((first, _)) = objects.first() {
-                        let (second, first) = (head.clone().into(), first.clone().into());
-                        self.log.notes.note(Mistake::CrowdedTransform { second, first });
-                    }
-                    self.transform_depth += 1;
-                    let object = self.object(block);
-                    self.transform_depth -= 1;
-                    objects.push((head, object));
-                }
-            }
-        }
-        let Some((_, object)) = objects.into_iter().next() else {
-            self.log.notes.note(Mistake::EmptyTransform { at: span.into() });
-            return None;
-        };
-        let mut object = object?;
-        object.steps.extend(factors.into_iter().rev());
-        if self.dialect == Dialect::Arsenal {
-            self.differs(
-                "the original does not show objects inside a `Transform`",
-                &span,
-                "its intersection with a `Transform` is switched off; delete the object to have the same picture",
-            );
-            object
-                .notes
-                .push("The original does not show this object: its `Transform` is switched off.".into());
-        }
-        Some(object)
-    }
-
-    fn operation(&mut self, field: &Field<'_>, factors: &mut VecDeque<Step>) {
-        self.log.mapped(&field.span, "a step of `transform`");
-        let step = match field.key {
-            "Translate" => Step::Translate(field.vector()),
-            "Scale" => Step::Scale(field.vector()),
-            "UniformScale" => Step::Scale(DVec3::splat(field.number(0))),
-            "XRotate" => Step::RotateAxis(0, field.number(0)),
-            "YRotate" => Step::RotateAxis(1, field.number(0)),
-            "ZRotate" => Step::RotateAxis(2, field.number(0)),
-            "Rotate" => Step::Rotate(field.vector(), field.number(3)),
-            "Matrix" => Step::Matrix(std::array::from_fn(|i| field.number(i))),
-            // Columns in the file, rows here.
-            _ => Step::Matrix(std::array::from_fn(|i| field.number(i % 4 * 4 + i / 4))),
-        };
-        if let Step::Scale(by) = step {
-            self.check_scale(by, &field.span);
-        }
-        match step {
-            Step::Rotate(axis, _) if axis == DVec3::ZERO => {
-                self.bad_value(
-                    "the axis of this rotation is the zero vector",
-                    &field.span,
-                    "write the axis first",
-                );
-            }
-            Step::Matrix(rows) if rows[12..] != [0.0, 0.0, 0.0, 1.0] => {
-                let help = "the fourth row must be 0 0 0 1; `Matrix` lists rows, `Matrix4f` columns";
-                self.bad_value("this matrix does not keep straight lines parallel", &field.span, help);
-            }
-            Step::Matrix(_) => factors.push_front(step), // the two matrix operations multiply on the left
-            step => factors.push_back(step),
-        }
+    fn leave_out(&mut self, block: &Block<'_>, why: &'static str) -> Option<Object> {
+        self.log.drop_all(&block.span, why);
+        self.log.not_convertible(format!("`{}`", block.name()), &block.head, why);
+        None
     }
 }
 
-/// An object without transform, material and remarks, whose shape is still to be set.
-fn plain(span: Span) -> Object {
-    Object { shape: Shape::Group(Vec::new()), material: None, steps: Vec::new(), notes: Vec::new(), span }
+/// A light's object has the light for its material.
+fn without_material(mut object: Object) -> Object {
+    object.material = None;
+    if let Shape::Group(objects) = object.shape {
+        object.shape = Shape::Group(objects.into_iter().map(without_material).collect());
+    }
+    object
+}
+
+fn is_material(name: &str) -> bool {
+    blocks::material(name).is_some() && blocks::object(name).is_none()
+}
+
+/// Materials among objects; a name such as `Glass` could be anything, so the word must be there.
+fn is_inline_material(block: &Block<'_>) -> bool {
+    block.name().contains("Material") && is_material(block.name())
+}
+
+fn holds_objects(block: &Block<'_>) -> bool {
+    block.blocks().any(|inner| blocks::is_usual_object(inner.name()))
 }

@@ -1,9 +1,10 @@
 //! Planes, and the pictures that the renderer of arsenal.txt lays on them.
 
-use super::{Dialect, Mistake, Reader, vocab};
+use super::{Dialect, Mistake, Reader};
+use crate::convert::PlaneSign;
 use crate::convert::fields::Fields;
 use crate::convert::model::{PlanePicture, Shape};
-use crate::convert::parse::Block;
+use crate::convert::parse::Span;
 use crate::math::DVec3;
 
 /// Normals within this distance of unit length count as unit vectors.
@@ -11,20 +12,19 @@ const UNIT_TOLERANCE: f64 = 1e-3;
 
 impl Reader<'_> {
     /// `normal . p = offset`, with the normal as long as it was written.
-    pub(super) fn plane(&mut self, block: Block<'_>) -> Option<Shape> {
-        let (span, head) = (block.span.clone(), block.head.clone());
-        let mut fields = self.log.fields(block, vocab::PLANE);
-        self.log.mapped(&fields.head, "`plane`");
-        let normal = self.log.need(&mut fields, "normal");
-        let offset = self.log.need_number(&mut fields, "offset", "offset of the plane");
-        let picture = self.plane_picture(&mut fields);
-        self.log.finish(fields);
+    pub(super) fn plane(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
+        let (span, head) = (fields.span.clone(), fields.head.clone());
+        self.log.mapped(&head, "`plane`");
+        let normal = self.log.need(fields, "normal");
+        let offset = self.log.need_number(fields, "offset", "offset of the plane");
+        let picture = self.laid_picture(fields);
 
         let normal = normal?;
-        let length = normal.vector().length();
+        let direction = self.three(&normal)?;
+        let length = direction.length();
         self.log.mapped(&normal.span, "`normal`");
         if length == 0.0 {
-            self.bad_value(
+            self.log.bad_value(
                 "the normal of this plane is the zero vector",
                 &normal.span,
                 "write the plane's normal",
@@ -35,44 +35,48 @@ impl Reader<'_> {
             let length = (length * 1e4).round() / 1e4;
             self.log.notes.note(Mistake::NormalNotUnit { length, at: normal.span.clone().into() });
         }
-        let (normal, offset) = (normal.vector() / length, offset? / length);
-        if self.dialect == Dialect::Flags {
-            self.differs(
-                "a plane of a dialect that is not agreed on its side",
-                &head,
-                "it was put where `normal . p = offset`; one program means `normal . p = -offset`",
-            );
+        let (normal, mut offset) = (direction / length, offset? / length);
+        if self.is_sign_opposite(&head) {
+            offset = -offset;
         }
         if self.is_seen_through(normal, offset) {
             self.log.drop_all(&span, "the camera is behind it, where this dialect's planes cannot be seen");
-            let what = "a plane between the camera and the scene".into();
-            let why = "programs of this dialect see through a plane from behind";
-            self.log.notes.note(Mistake::NotConvertible { what, why, at: head.into() });
+            let why =
+                "programs of this dialect see through a plane from behind; `--planes two-sided` keeps it";
+            self.log.not_convertible("a plane between the camera and the scene", &head, why);
             return None;
         }
         Some(Shape::Plane { normal, offset, picture })
     }
 
-    /// Planes of the dialect of weights have one side, and its cameras like to stand behind the front wall.
-    fn is_seen_through(&self, normal: DVec3, offset: f64) -> bool {
-        let is_behind = |camera: DVec3| normal.dot(camera) < offset;
-        self.dialect == Dialect::Weights
-            && self.transform_depth == 0
-            && self.camera_center.is_some_and(is_behind)
+    /// Whether `normal . p + offset = 0` is meant.
+    fn is_sign_opposite(&mut self, head: &Span) -> bool {
+        match self.options.plane_sign {
+            PlaneSign::Same => false,
+            PlaneSign::Opposite => true,
+            PlaneSign::Auto => {
+                if self.dialect == Dialect::Flags {
+                    self.log.differs(
+                        "a plane of a dialect that is not agreed on its side",
+                        head,
+                        "it was put where `normal . p = offset`; one program means `normal . p = -offset`, for \
+                         which there is `--plane-sign opposite`",
+                    );
+                }
+                false
+            }
+        }
     }
 
-    fn plane_picture(&mut self, fields: &mut Fields<'_>) -> Option<PlanePicture> {
-        let texture = self.log.take(fields, "texture")?;
+    /// A picture with axes in the plane.
+    fn laid_picture(&mut self, fields: &mut Fields<'_>) -> Option<PlanePicture> {
         let axes = ["x-axis", "y-axis", "x-offset", "y-offset"];
         if !axes.iter().any(|key| fields.has(key)) {
-            self.log.dropped(&texture.span, "without axes it is not read yet");
-            self.note_not_read("a picture on a plane without axes".into(), &texture.span, "left out");
             return None;
         }
-        self.log.approximated(
-            &texture.span,
-            "`image`, smooth between pixels, decoded as sRGB; the original does neither",
-        );
+        let texture = self.log.need(fields, "texture")?;
+        let how = "`image`, smooth between pixels, decoded as sRGB; the original does neither";
+        self.log.approximated(&texture.span, how);
         let file = texture.word.as_ref().map(|word| self.asset(word));
         let x_axis = self.log.need(fields, "x-axis");
         let y_axis = self.log.need(fields, "y-axis");
@@ -83,7 +87,7 @@ impl Reader<'_> {
         }
         let (x_axis, y_axis) = (x_axis?, y_axis?);
         if x_axis.vector().cross(y_axis.vector()) == DVec3::ZERO {
-            self.bad_value(
+            self.log.bad_value(
                 "the axes of this picture are parallel",
                 &y_axis.span,
                 "write the direction of its height",

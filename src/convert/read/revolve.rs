@@ -1,47 +1,43 @@
 //! Surfaces of revolution and their profiles.
 
-use super::{Mistake, Reader, vocab};
-use crate::convert::fields::Part;
+use super::{Mistake, Reader};
+use crate::convert::fields::Fields;
 use crate::convert::model::{Curve, Profile, Shape};
 use crate::convert::parse::{Block, List, Node, Span};
+use crate::convert::words::CURVE;
+
+/// How many straight pieces stand for a curve that the scene language cannot say.
+const PIECES: usize = 128;
+
+/// The longest profile of one Bezier curve that is evaluated exactly; beyond, its binomials lose their digits.
+const MAX_BEZIER_POINTS: usize = 64;
 
 impl Reader<'_> {
     /// `RevSurface { profile CURVE { controls [..] .. } }`, rotated about the y axis.
-    pub(super) fn revolve(&mut self, block: Block<'_>) -> Option<Shape> {
-        let span = block.head.clone();
+    pub(super) fn revolve(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
+        let span = fields.head.clone();
         self.log.mapped(&span, "`revolve`");
-        let (mut profile, mut has_curve) = (None, false);
-        for part in self.log.parts(block.body, vocab::REV_SURFACE) {
-            match part {
-                Part::Field(field) if field.known => self.log.mapped(&field.span, "`profile`"),
-                Part::Field(field) => self.log.unknown_field(&field, "RevSurface", vocab::REV_SURFACE),
-                Part::Block(block) => {
-                    has_curve = true;
-                    profile = self.profile(block).or(profile);
-                }
-            }
+        if let Some(field) = self.log.take(fields, "profile") {
+            self.log.mapped(&field.span, "`profile`");
         }
-        if !has_curve {
+        let is_curve = |name: &str| name.to_ascii_lowercase().contains("curve");
+        let Some(curve) = fields.take_block(is_curve) else {
             self.log.notes.note(Mistake::MissingField {
                 block: "RevSurface".into(),
                 field: "profile",
                 at: span.into(),
                 help: "add `profile BezierCurve { controls [ 1 0 0 ] .. }`".into(),
             });
-        }
+            return None;
+        };
+        let profile = self.profile(curve);
         profile.map(|profile| Shape::Revolve { profile })
     }
 
     fn profile(&mut self, block: Block<'_>) -> Option<Profile> {
-        let kind = match block.name() {
-            "BezierCurve" => Curve::Bezier,
-            "BsplineCurve" => Curve::Bspline,
-            _ => {
-                self.log.unknown_block(&block, "in `RevSurface`".into(), &["BezierCurve", "BsplineCurve"]);
-                return None;
-            }
-        };
-        let mut fields = self.log.fields(block, vocab::CURVE);
+        let is_bezier = block.name().to_ascii_lowercase().contains("bezier");
+        let kind = if is_bezier { Curve::Bezier } else { Curve::Bspline };
+        let mut fields = self.log.fields(block, &CURVE);
         let (curve, head) = (fields.block.clone(), fields.head.clone());
         self.log.mapped(&head, "the kind of profile");
         let controls = self.log.take(&mut fields, "controls");
@@ -51,21 +47,24 @@ impl Reader<'_> {
             field.lists
         });
         let lists = lists.unwrap_or_default();
+        let points: Vec<_> = lists.iter().filter_map(|list| self.control_point(list)).collect();
+        let fewest = if kind == Curve::Bezier { 2 } else { 4 };
         if lists.len() < 4 {
-            self.log.notes.note(Mistake::ProfileTooShort { curve, count: lists.len(), at: head.into() });
+            let at = head.clone().into();
+            self.log.notes.note(Mistake::ProfileTooShort { curve, count: lists.len(), at });
+        }
+        if points.len() < fewest {
             return None;
         }
-        if kind == Curve::Bezier && lists.len() % 3 != 1 {
+        if kind == Curve::Bezier && points.len() % 3 != 1 {
             let help =
                 "it was read as one curve over all its points; the original wants 4, 7, 10, .. of them";
-            self.differs(format!("a Bezier curve of {} points", lists.len()), &head, help);
+            self.log.differs(format!("a Bezier curve of {} points", points.len()), &head, help);
         }
-        let points: Vec<_> = lists.iter().map(|list| self.control_point(list)).collect();
-        let points: Option<Vec<_>> = points.into_iter().collect(); // after the mistakes of all of them
-        Some(Profile { kind, points: self.outward(points?, &head) })
+        self.outward(Profile { kind, points }, &head)
     }
 
-    /// `[ x y 0 ]`: distance from the axis and height.
+    /// `[ x y 0 ]`: distance from the axis and height. What is no point is left out.
     fn control_point(&mut self, list: &List<'_>) -> Option<(f64, f64)> {
         let numbers: Vec<f64> = list
             .items
@@ -76,41 +75,92 @@ impl Reader<'_> {
             })
             .collect();
         let at = list.span.clone().into();
-        let found = match list.items.iter().find(|item| !matches!(item, Node::Number(_))) {
-            Some(Node::Word(word)) => format!("`{}` is none", word.text),
-            _ => format!("this one has {}", list.items.len()),
-        };
         match numbers[..] {
-            [x, y, 0.0] if list.items.len() == 3 => Some((x, y)),
-            [_, _, z] if list.items.len() == 3 => {
+            [x, y] | [x, y, 0.0] if list.items.len() == numbers.len() => Some((x, y)),
+            [x, y, z] if list.items.len() == 3 => {
                 self.log.notes.note(Mistake::ProfileOffPlane { z, at });
-                None
+                Some((x, y))
             }
             _ => {
+                let found = match list.items.iter().find(|item| !matches!(item, Node::Number(_))) {
+                    Some(Node::Word(word)) => format!("`{}` is none", word.text),
+                    _ => format!("this one has {}", list.items.len()),
+                };
                 self.log.notes.note(Mistake::MissingNumber {
                     key: "[ .. ]".into(),
                     wanted: "3 numbers".into(),
                     found,
                     at,
-                    help: "a control point is `[ x y 0 ]`".into(),
+                    help: "a control point is `[ x y 0 ]`; this one was left out".into(),
                 });
                 None
             }
         }
     }
 
-    /// Turns a profile on the left of the axis to the right, which makes the same surface.
-    fn outward(&mut self, mut points: Vec<(f64, f64)>, at: &Span) -> Vec<(f64, f64)> {
-        let (left, right) = (points.iter().any(|p| p.0 < 0.0), points.iter().any(|p| p.0 > 0.0));
-        if left && right {
-            let help = "a distance from the axis is never below 0: move the points to one side";
-            self.bad_value("this profile crosses its axis", at, help);
+    /// Brings a profile to the right of the axis, which makes the same surface: by turning it over where it is on the
+    /// left as a whole, else point by point, as a line of many pieces.
+    fn outward(&mut self, mut profile: Profile, at: &Span) -> Option<Profile> {
+        let is_left = |p: &(f64, f64)| p.0 < 0.0;
+        if !profile.points.iter().any(is_left) {
+            return Some(profile);
         }
-        if left && !right {
-            for point in &mut points {
-                point.0 = 0.0 - point.0;
-            }
+        for point in &mut profile.points {
+            point.0 = 0.0 - point.0;
         }
-        points
+        if !profile.points.iter().any(is_left) {
+            return Some(profile);
+        }
+        if profile.kind == Curve::Bezier && profile.points.len() > MAX_BEZIER_POINTS {
+            self.log.not_convertible("this profile", at, "it crosses its axis, and has very many points");
+            return None;
+        }
+        self.log.approximated(at, "a line of many pieces, for the curve crosses its axis");
+        let on_curve = |i: usize| {
+            let (x, y) = profile.at(i as f64 / PIECES as f64);
+            (x.abs(), y)
+        };
+        Some(Profile { kind: Curve::Polyline, points: (0..=PIECES).map(on_curve).collect() })
+    }
+}
+
+impl Profile {
+    /// The point at parameter t in 0..=1.
+    fn at(&self, t: f64) -> (f64, f64) {
+        match self.kind {
+            Curve::Bezier => self.on_bezier(t),
+            Curve::Bspline => self.on_bspline(t),
+            Curve::Polyline => self.points[((self.points.len() - 1) as f64 * t) as usize],
+        }
+    }
+
+    /// De Casteljau's construction.
+    fn on_bezier(&self, t: f64) -> (f64, f64) {
+        let mut points = self.points.clone();
+        while points.len() > 1 {
+            let between = |pair: &[(f64, f64)]| {
+                (pair[0].0 + t * (pair[1].0 - pair[0].0), pair[0].1 + t * (pair[1].1 - pair[0].1))
+            };
+            points = points.windows(2).map(between).collect();
+        }
+        points[0]
+    }
+
+    /// The uniform cubic B-spline, n - 3 pieces of four points each.
+    fn on_bspline(&self, t: f64) -> (f64, f64) {
+        let pieces = self.points.len() - 3;
+        let piece = ((t * pieces as f64) as usize).min(pieces - 1);
+        let u = t * pieces as f64 - piece as f64;
+        let v = 1.0 - u;
+        let weights = [
+            v * v * v / 6.0,
+            (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0,
+            (3.0 * v * v * v - 6.0 * v * v + 4.0) / 6.0,
+            u * u * u / 6.0,
+        ];
+        let sum = |pick: fn(&(f64, f64)) -> f64| -> f64 {
+            weights.iter().zip(&self.points[piece..]).map(|(weight, point)| weight * pick(point)).sum()
+        };
+        (sum(|point| point.0), sum(|point| point.1))
     }
 }

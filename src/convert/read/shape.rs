@@ -1,161 +1,249 @@
 //! Shapes but for planes and surfaces of revolution.
 
-use super::{Reader, vocab};
-use crate::convert::fields::Field;
-use crate::convert::model::{Asset, Object, Shape, Step};
-use crate::convert::parse::{Block, Span};
+use super::Reader;
+use super::quad::is_flat;
+use crate::convert::dialect::Dialect;
+use crate::convert::fields::{Field, Fields};
+use crate::convert::model::{Asset, Curve, Object, Profile, Shape, Step};
 use crate::math::DVec3;
+use crate::math::float::sin_cos64;
+use std::f64::consts::TAU;
 
-/// What the point of a rectangle is, and so what its two vectors are.
-#[derive(Clone, Copy)]
-pub enum Anchor {
-    /// A corner; the vectors are its edges.
-    Corner,
-    /// The middle; the vectors are half its edges.
-    Middle,
-}
+/// Corners of the circle that a torus is turned from.
+const TORUS_CORNERS: usize = 64;
 
 impl Reader<'_> {
-    /// A rectangle, or a parallelogram, by a point and two vectors.
-    pub(super) fn quad(
-        &mut self,
-        block: Block<'_>,
-        keys: [&'static str; 3],
-        anchor: Anchor,
-    ) -> Option<Shape> {
-        let mut fields = self.log.fields(block, vocab::QUAD);
+    /// A ball; one that moves between two centres stands half way.
+    pub(super) fn sphere(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
+        self.log.mapped(&fields.head, "`sphere`");
+        let centers = ["center0", "center", "center1", "center2"];
+        let mut given = centers.into_iter().filter(|role| fields.has(role));
+        let (first, second) = (given.next(), given.next());
+        let other_names = || ["position", "origin"].into_iter().find(|role| fields.has(role));
+        let role = first.or_else(other_names).unwrap_or("center");
+        let center = self.log.need_vector(fields, role, "`center`");
+        let end = second.and_then(|role| self.log.take(fields, role));
+        let radius = self.positive(fields, "radius", "`radius`");
+        let times = "the times of a motion, half way through which it stands";
+        self.log.put_aside(fields, &["time"], times);
+        let mut center = center?;
+        if let Some(end) = end {
+            self.log.approximated(&end.span, "stands still half way through its motion");
+            self.note_not_read("motion", &end.span, "the object stands still half way");
+            center = 0.5 * (center + end.vector());
+        }
+        Some(Shape::Sphere { center, radius: radius? })
+    }
+
+    /// A rectangle, or a parallelogram.
+    pub(super) fn quad(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
         self.log.mapped(&fields.head, "`quad`");
-        let tos = match anchor {
-            Anchor::Corner => ["`origin`", "`edge_u`", "`edge_v`"],
-            Anchor::Middle => ["the middle of the `quad`", "half of `edge_u`", "half of `edge_v`"],
-        };
-        let [point, u, v] = [0, 1, 2].map(|i| self.log.need_vector(&mut fields, keys[i], tos[i]));
-        let head = fields.head.clone();
-        self.log.finish(fields);
-        let (point, u, v) = (point?, u?, v?);
-        if u.cross(v) == DVec3::ZERO {
-            self.bad_value(
-                "the edges of this rectangle are parallel",
-                &head,
-                "write two directions that differ",
+        let quad = self.parallelogram(fields)?;
+        self.log.put_aside(fields, &["normal", "offset", "up"], "it follows from the edges");
+        Some(Shape::Quad { origin: quad.origin, edge_u: quad.edge_u, edge_v: quad.edge_v })
+    }
+
+    pub(super) fn disk(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
+        self.log.mapped(&fields.head, "`disk`");
+        let place = if fields.has("position") { "position" } else { "center" };
+        let center = self.log.need_vector(fields, place, "`center`");
+        let normal = self.log.need(fields, "normal");
+        let radius = self.positive(fields, "radius", "`radius`");
+        let normal = normal?;
+        let direction = self.three(&normal)?;
+        self.log.mapped(&normal.span, "`normal`");
+        if direction == DVec3::ZERO {
+            self.log.bad_value(
+                "the normal of this disk is the zero vector",
+                &normal.span,
+                "write where it faces",
             );
             return None;
         }
-        Some(match anchor {
-            Anchor::Corner => Shape::Quad { origin: point, edge_u: u, edge_v: v },
-            Anchor::Middle => Shape::Quad { origin: point - u - v, edge_u: 2.0 * u, edge_v: 2.0 * v },
-        })
+        Some(Shape::Disk { center: center?, normal: direction, radius: radius? })
     }
 
-    pub(super) fn disk(&mut self, block: Block<'_>) -> Option<Shape> {
-        let mut fields = self.log.fields(block, vocab::DISK);
-        self.log.mapped(&fields.head, "`disk`");
-        let center = self.log.need_vector(&mut fields, "center", "`center`");
-        let normal = self.log.need_vector(&mut fields, "normal", "`normal`");
-        let radius = self.positive(&mut fields, "radius", "`radius`");
+    /// A box by two corners, or by its middle and size.
+    pub(super) fn cuboid(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
         let head = fields.head.clone();
-        self.log.finish(fields);
-        let normal = normal?;
-        if normal == DVec3::ZERO {
-            self.bad_value("the normal of this disk is the zero vector", &head, "write where it faces");
-            return None;
-        }
-        Some(Shape::Disk { center: center?, normal, radius: radius? })
-    }
-
-    pub(super) fn cuboid(&mut self, block: Block<'_>) -> Option<Shape> {
-        let mut fields = self.log.fields(block, vocab::CUBE);
-        self.log.mapped(&fields.head, "`box`");
-        let min = self.log.need_vector(&mut fields, "min_p", "`min`");
-        let max = self.log.need_vector(&mut fields, "max_p", "`max`");
-        let head = fields.head.clone();
-        self.log.finish(fields);
-        let (min, max) = (min?, max?);
+        self.log.mapped(&head, "`box`");
+        let (min, max) = if fields.has("center") && fields.has("size") {
+            let center = self.log.need_vector(fields, "center", "the middle of the box")?;
+            let size = self.log.take(fields, "size")?;
+            self.log.mapped(&size.span, "the lengths of its edges");
+            (center - 0.5 * size.vector(), center + 0.5 * size.vector())
+        } else {
+            let roles = if fields.has("a") && fields.has("b") { ["a", "b"] } else { ["min", "max"] };
+            let corners = roles.map(|role| self.log.need_vector(fields, role, "a corner"));
+            (corners[0]?, corners[1]?)
+        };
         if (max - min).to_array().contains(&0.0) {
-            self.bad_value("this cube has no volume", &head, "write corners that differ in every coordinate");
+            let help = "write corners that differ in every coordinate";
+            self.log.bad_value("this cube has no volume", &head, help);
             return None;
         }
         Some(Shape::Cuboid { min: min.min(max), max: max.max(min) })
     }
 
-    pub(super) fn sphere(&mut self, block: Block<'_>) -> Option<Shape> {
-        let mut fields = self.log.fields(block, vocab::SPHERE);
-        self.log.mapped(&fields.head, "`sphere`");
-        let center = self.log.need_vector(&mut fields, "center", "`center`");
-        let radius = self.positive(&mut fields, "radius", "`radius`");
-        if let Some(velocity) = self.log.take(&mut fields, "velocity") {
-            self.log.dropped(&velocity.span, "motion is not read yet");
-            self.note_not_read("`velocity`".into(), &velocity.span, "left out");
-        }
-        self.log.finish(fields);
-        Some(Shape::Sphere { center: center?, radius: radius? })
-    }
-
-    pub(super) fn triangle(&mut self, block: Block<'_>) -> Option<Shape> {
-        let mut fields = self.log.fields(block, vocab::TRIANGLE);
+    pub(super) fn triangle(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
         self.log.mapped(&fields.head, "`triangle`");
-        let corners = [("vertex0", "`a`"), ("vertex1", "`b`"), ("vertex2", "`c`")]
-            .map(|(key, to)| self.log.need_vector(&mut fields, key, to));
-        self.log.finish(fields);
+        let corners = [("p1", "vertex0", "`a`"), ("p2", "vertex1", "`b`"), ("p3", "vertex2", "`c`")].map(
+            |(role, key, to)| {
+                let role = if fields.has(role) { role } else { key };
+                self.log.need_vector(fields, role, to)
+            },
+        );
         let [a, b, c] = corners;
-        Some(Shape::Triangle { corners: [a?, b?, c?] })
+        let (a, b, c) = (a?, b?, c?);
+        if is_flat(b - a, c - a) {
+            let head = fields.head.clone();
+            let help = "it was left out; write corners that are not in one line";
+            self.log.bad_value("this triangle has no area", &head, help);
+            return None;
+        }
+        Some(Shape::Triangle { corners: [a, b, c] })
     }
 
-    /// A mesh and, in the dialect of arsenal.txt, its placement: `v scale + offset`, and z mirrored by `Y_inverse`.
-    pub(super) fn mesh(&mut self, block: Block<'_>) -> Option<Object> {
-        let span = block.head.clone();
-        let mut fields = self.log.fields(block, vocab::MESH);
-        self.log.mapped(&fields.head, "`mesh`");
-        let file = self.log.need(&mut fields, "obj_file");
-        let scale = self.log.take(&mut fields, "scale");
-        let offset = self.log.vector(&mut fields, "offset", "`translate`").unwrap_or_default();
-        let mirrored = self.log.take(&mut fields, "Y_inverse");
-        self.log.finish(fields);
-        let material = self.material_of("TriangleMesh", &span);
+    /// A tube along the y axis, from the middle of its foot, without lids.
+    pub(super) fn cylinder(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
+        let head = fields.head.clone();
+        self.log.approximated(&head, "`revolve`, a tube along the y axis");
+        let radius = self.positive(fields, "radius", "its radius");
+        let foot = self.log.take_any(fields, &["center", "position", "origin"]);
+        let height = self.log.number(fields, "length v", "its height");
+        let end = self.log.vector(fields, "endpoint", "its end");
+        let foot = foot.map_or(DVec3::ZERO, |field| {
+            self.log.mapped(&field.span, "its foot");
+            field.vector()
+        });
+        let top = height.map(|height| foot.y + height).or(end.map(|end| end.y));
+        let is_upright = foot.x == 0.0 && foot.z == 0.0;
+        let (Some(radius), Some(top), true) = (radius, top.filter(|top| *top != foot.y), is_upright) else {
+            self.log.not_convertible(
+                "this cylinder",
+                &head,
+                "where it ends, or that it stands on the y axis, is not said",
+            );
+            return None;
+        };
+        let points = vec![(radius, foot.y), (radius, top)];
+        Some(Shape::Revolve { profile: Profile { kind: Curve::Polyline, points } })
+    }
 
-        let factor = scale.as_ref().map_or(1.0, |field| field.number(0));
-        if let Some(scale) = &scale {
-            self.log.mapped(&scale.span, "`scale`");
-            self.check_scale(DVec3::splat(factor), &scale.span);
+    /// A ring around the y axis, of many corners.
+    pub(super) fn torus(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
+        let head = fields.head.clone();
+        self.log.approximated(&head, "`revolve`, with a circle of many corners");
+        let large = self.positive(fields, "large radius", "its radius");
+        let small = self.positive(fields, "small radius", "the radius of its tube");
+        let (large, small) = (large?, small?);
+        if small > large {
+            let help = "write `R` greater than `r`";
+            self.log.bad_value("the tube of this torus is wider than its ring", &head, help);
+            return None;
         }
-        let mut notes = Vec::new();
-        if let Some(flag) = &mirrored {
+        let points = (0..=TORUS_CORNERS).map(|i| {
+            let (sin, cos) = sin_cos64(TAU * (i % TORUS_CORNERS) as f64 / TORUS_CORNERS as f64);
+            ((large + small * cos).max(0.0), small * sin)
+        });
+        Some(Shape::Revolve { profile: Profile { kind: Curve::Polyline, points: points.collect() } })
+    }
+
+    /// A mesh and its placement: `v scale + offset`, and in the dialect of arsenal.txt z mirrored by `Y_inverse`.
+    pub(super) fn mesh(&mut self, fields: &mut Fields<'_>) -> Option<Object> {
+        let head = fields.head.clone();
+        self.log.mapped(&head, "`mesh`");
+        let file = self.mesh_file(fields);
+        let scale = self.mesh_scale(fields);
+        let offset_role = ["offset", "center", "position"].into_iter().find(|role| fields.has(role));
+        let offset =
+            offset_role.and_then(|role| self.log.vector(fields, role, "`translate`")).unwrap_or_default();
+        let mut object =
+            Object::new(Shape::Mesh { file: file?, smooth: self.is_smooth(fields) }, head.clone());
+        let mut mirror = DVec3::ONE;
+        if let Some(flag) = self.log.take(fields, "Y_inverse") {
             self.log.mapped(&flag.span, "a mirrored z axis, which is what it does in spite of its name");
-            notes.push("`Y_inverse` mirrors z in the original, not y.".into());
+            object.notes.push("`Y_inverse` mirrors z in the original, not y.".into());
+            mirror.z = -1.0;
         }
-        let sign = if mirrored.is_some() { -1.0 } else { 1.0 };
-        let mut steps = vec![Step::Scale(DVec3::new(factor, factor, sign * factor)), Step::Translate(offset)];
-        steps.retain(|step| !step.is_identity());
-        let file = self.obj_file(&file?)?;
-        let mut object = Object { shape: Shape::Mesh { file }, material, steps, notes, span };
-        self.note_dark_lamp(&mut object);
+        object.steps = vec![Step::Scale(scale * mirror), Step::Translate(offset)];
+        object.steps.retain(|step| !step.is_identity());
+        if scale.to_array().contains(&0.0) {
+            self.log.bad_value("a scale of 0 flattens the object", &head, "write a factor other than 0");
+            return None;
+        }
         Some(object)
     }
 
-    fn obj_file(&mut self, field: &Field<'_>) -> Option<Asset> {
-        let word = field.word.as_ref()?;
+    /// The file after `obj_file`, or where a program has no key, the one word there is.
+    fn mesh_file(&mut self, fields: &mut Fields<'_>) -> Option<Asset> {
+        if fields.has("obj_file") {
+            let field = self.log.take(fields, "obj_file")?;
+            return self.obj_file(&field);
+        }
+        let is_path = |field: &&Field<'_>| field.role.is_empty() && field.key.contains('.');
+        let keyless =
+            fields.rest().iter().find(is_path).map(|field| (field.key.to_string(), field.span.clone()));
+        match keyless {
+            Some((key, span)) => {
+                self.log.mapped(&span, "`file`");
+                fields.forget(&key);
+                Some(self.asset_at(&key, &span))
+            }
+            None => {
+                self.log.need(fields, "obj_file");
+                None
+            }
+        }
+    }
+
+    fn mesh_scale(&mut self, fields: &mut Fields<'_>) -> DVec3 {
+        if let Some(field) = self.log.take(fields, "scale") {
+            self.log.mapped(&field.span, "`scale`");
+            return DVec3::splat(field.number(0));
+        }
+        self.log.vector(fields, "scaling", "`scale`").unwrap_or(DVec3::ONE)
+    }
+
+    /// Whether normals are interpolated. The course and MIT's edition of 2004 have flat triangles, that of 2016 smooth
+    /// ones; that of 2010 has smooth ones from 120 vertices on, which only the file of the mesh could tell.
+    fn is_smooth(&mut self, fields: &mut Fields<'_>) -> bool {
+        let mut is_smooth = matches!(self.dialect, Dialect::Mit2010 | Dialect::Mit2016);
+        if let Some(field) = self.log.take(fields, "smooth") {
+            is_smooth = !field.text().eq_ignore_ascii_case("false")
+                && field.numbers.first().is_none_or(|n| n.value != 0.0);
+            self.log.mapped(&field.span, "`smooth`");
+        }
+        if let Some(field) = self.log.take(fields, "interpolate") {
+            is_smooth = field.number(0) != 0.0;
+            self.log.mapped(&field.span, "`smooth`");
+        }
+        is_smooth
+    }
+
+    pub(super) fn obj_file(&mut self, field: &Field<'_>) -> Option<Asset> {
+        let Some(word) = &field.word else {
+            self.log.dropped(&field.span, "no file");
+            self.log.bad_value("a number is no mesh file", &field.span, "write the file's name");
+            return None;
+        };
         self.log.mapped(&field.span, "`file`");
-        if !word.text.ends_with(".obj") {
+        if !word.text.to_ascii_lowercase().ends_with(".obj") {
             let help = "the original refuses it; the renderer goes by the file's own format";
-            self.differs("a mesh file that does not end in `.obj`", &word.span, help);
+            self.log.differs("a mesh file that does not end in `.obj`", &word.span, help);
         }
         Some(self.asset(word))
     }
 
-    pub(super) fn check_scale(&mut self, factors: DVec3, at: &Span) {
-        if factors.to_array().contains(&0.0) {
-            self.bad_value("a scale of 0 flattens the object", at, "write a factor other than 0");
+    /// `ObjFile FILE` among the objects of a group.
+    pub(super) fn bare_mesh(&mut self, field: &Field<'_>) -> Option<Object> {
+        if !field.sound {
+            self.log.dropped(&field.span, "malformed");
+            return None;
         }
-    }
-}
-
-impl Step {
-    /// Whether the step leaves everything where it is.
-    fn is_identity(&self) -> bool {
-        match self {
-            Self::Scale(by) => *by == DVec3::ONE,
-            Self::Translate(by) => *by == DVec3::ZERO,
-            _ => false,
-        }
+        let file = self.obj_file(field)?;
+        let mut object = Object::new(Shape::Mesh { file, smooth: false }, field.span.clone());
+        object.material = self.material_of("mesh", &field.span);
+        Some(object)
     }
 }

@@ -1,11 +1,11 @@
 //! The names of a scene, and the `let` bindings that give them.
 
 use super::layout::Entry;
-use super::material_value;
+use super::material::material_value;
 use super::names::{self, Names};
 use super::object::shape_value;
 use super::picture;
-use crate::convert::model::{Look, Material, Object, Scene, Shape};
+use crate::convert::model::{Light, Look, Material, Object, Scene, Shape};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The names of a scene's materials and of the shapes that stand in it more than once.
@@ -49,7 +49,7 @@ impl Glossary {
         let mut entries = Vec::new();
         let mut said = BTreeSet::new(); // what holds for several materials is said at the first
         for (index, material) in scene.materials.iter().enumerate() {
-            let entry = Entry::binding(&self.materials[index], material_value(&material.look));
+            let entry = Entry::binding(&self.materials[index], material_value(&material.look, self));
             if uses.named.contains(&index) {
                 let news: Vec<String> =
                     material.notes.iter().filter(|&note| said.insert(note)).cloned().collect();
@@ -61,7 +61,7 @@ impl Glossary {
         if uses.named.contains(&scene.materials.len()) {
             let name = &self.materials[scene.materials.len()];
             let note = "Its index is past the last material.".to_string();
-            entries.push(Entry::binding(name, material_value(&Look::Placeholder)).noted(&[note]));
+            entries.push(Entry::binding(name, material_value(&Look::Placeholder, self)).noted(&[note]));
         }
         let shape = |(key, name): (&String, &String)| {
             let (shape, _) = uses.shapes[key];
@@ -85,25 +85,45 @@ impl Glossary {
 impl<'s> Uses<'s> {
     fn of(scene: &'s Scene) -> Self {
         let mut uses = Self::default();
+        let mut glowing = |object: &'s Object| {
+            if let Some(key) = identity(&object.shape) {
+                uses.shapes.entry(key).or_insert((&object.shape, 0)).1 += 1;
+            }
+        };
+        for light in &scene.lights {
+            if let Light::Glowing { object, .. } = light {
+                Object::each(std::slice::from_ref(object), &mut glowing);
+            }
+        }
         Object::each(&scene.objects, &mut |object| {
             if let Some(key) = identity(&object.shape) {
                 uses.shapes.entry(key).or_insert((&object.shape, 0)).1 += 1;
             }
             if let Some(index) = object.material {
                 let look = scene.materials.get(index).map(|material: &Material| &material.look);
-                let is_inlined = object.picture().is_some() && look.is_some_and(picture::fits);
+                let is_laid = object.laid_picture().is_some() && look.is_some_and(picture::fits);
+                let is_inlined = is_laid || object.picture.is_some() && look.is_some_and(has_texture);
                 let set = if is_inlined { &mut uses.inlined } else { &mut uses.named };
                 set.insert(index);
             }
         });
+        for index in uses.named.clone() {
+            let parts = scene.materials.get(index).into_iter().flat_map(|material| material.look.parts());
+            uses.named.extend(parts);
+        }
         uses
     }
+}
+
+/// Whether a picture can stand for a colour of this material.
+fn has_texture(look: &Look) -> bool {
+    !look.clone().textures().is_empty()
 }
 
 /// What tells a shape that is worth sharing from others of its kind.
 fn identity(shape: &Shape) -> Option<String> {
     match shape {
-        Shape::Mesh { file } => Some(file.path.clone()),
+        Shape::Mesh { file, smooth } => Some(format!("{} {smooth}", file.path)),
         Shape::Revolve { profile } => Some(format!("{profile:?}")),
         _ => None,
     }
@@ -111,7 +131,7 @@ fn identity(shape: &Shape) -> Option<String> {
 
 fn name_of(shape: &Shape) -> String {
     match shape {
-        Shape::Mesh { file } => names::of_mesh(&file.path),
+        Shape::Mesh { file, .. } => names::of_mesh(&file.path),
         _ => "turned_shape".into(),
     }
 }

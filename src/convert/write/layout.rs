@@ -66,6 +66,7 @@ impl Entry {
     pub fn flat(&self) -> Option<String> {
         let value = match &self.value {
             Value::Text(text) => text.clone(),
+            Value::Group(head, entries) if entries.is_empty() => format!("{head}{{}}"),
             Value::Group(..) => return None,
             Value::Chain(steps) => steps.join(" then "),
             Value::List(open, items, close) => format!("{open}{}{close}", items.join(", ")),
@@ -117,6 +118,11 @@ impl From<&str> for Value {
 /// A remark, wrapped into lines that begin with `//`.
 pub fn comment(note: &str, depth: usize) -> String {
     wrap(note.split_whitespace().map(String::from), depth, "// ")
+}
+
+/// A remark that stands for itself.
+pub fn remark(note: &str) -> Value {
+    Value::Text(comment(note, 0).trim_end().to_string())
 }
 
 /// Words in lines no longer than [`WIDTH`], each line with `lead` before it.

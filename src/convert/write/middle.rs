@@ -2,7 +2,6 @@
 
 use crate::convert::model::{Object, Shape, Step};
 use crate::math::DVec3;
-use crate::math::float::sin_cos64;
 
 /// The middle of the box around the middles of all bounded shapes; the origin where there are none.
 pub fn of(objects: &[Object]) -> DVec3 {
@@ -41,26 +40,4 @@ fn middles<'a>(objects: &'a [Object], outer: &mut Vec<&'a [Step]>, visit: &mut d
         }
         outer.pop();
     }
-}
-
-impl Step {
-    /// Where the step takes a point.
-    fn apply(&self, p: DVec3) -> DVec3 {
-        match self {
-            Self::Scale(by) => *by * p,
-            Self::Translate(by) => *by + p,
-            Self::RotateAxis(axis, degrees) => turn(DVec3::AXES[*axis], *degrees, p),
-            Self::Rotate(axis, degrees) => turn(axis.normalize(), *degrees, p),
-            Self::Matrix(m) => {
-                let row = |i: usize| m[4 * i] * p.x + m[4 * i + 1] * p.y + m[4 * i + 2] * p.z + m[4 * i + 3];
-                DVec3::new(row(0), row(1), row(2))
-            }
-        }
-    }
-}
-
-/// Rotates p about a unit axis, right-handed (Rodrigues 1840).
-fn turn(axis: DVec3, degrees: f64, p: DVec3) -> DVec3 {
-    let (sin, cos) = sin_cos64(degrees.to_radians());
-    p * cos + axis.cross(p) * sin + axis * (axis.dot(p) * (1.0 - cos))
 }

@@ -31,7 +31,7 @@ pub fn of_look(look: &Look, index: usize) -> String {
     match look {
         Look::Diffuse { color } => surface("matte", color),
         Look::Phong { diffuse, .. } => surface("glossy", diffuse),
-        Look::Metal { color, .. } => format!("{}_metal", color_name(*color)),
+        Look::Metal { color, .. } => surface("metal", color),
         Look::Mirror { color } => match hue(color.color) {
             None if color.color.max_element() > 0.8 => "silver_mirror".into(),
             None => format!("{}_mirror", grey(color.color.max_element())),
@@ -47,7 +47,13 @@ pub fn of_look(look: &Look, index: usize) -> String {
             None => format!("light_{}", identifier(&super::text::rounded(radiance.max_element()))),
             Some(hue) => format!("{hue}_light"),
         },
-        Look::Mix { color, .. } => surface("mixed", color),
+        Look::Mix(lobes) => {
+            let colors =
+                lobes.iter().filter_map(|(_, lobe)| lobe.clone().textures().into_iter().next().cloned());
+            surface("mixed", &colors.into_iter().next().unwrap_or(Texture::plain(DVec3::ONE)))
+        }
+        Look::Solid { cells: Some(_), .. } => "chequered_blend".into(),
+        Look::Solid { cells: None, .. } => "even_blend".into(),
         Look::Placeholder => format!("unread_{index}"),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::glossary::Glossary;
 use super::layout::{Entry, Value};
+use super::material::material_value;
 use super::picture;
 use super::text::{number, point, rounded, rounded_point, string};
 use crate::convert::model::{Asset, Curve, Look, Object, Profile, Scene, Shape, Step};
@@ -14,9 +15,26 @@ pub fn entries(objects: &[Object], scene: &Scene, names: &Glossary) -> Vec<Entry
 
 fn entry(object: &Object, scene: &Scene, names: &Glossary) -> Entry {
     let look = look_of(object, scene);
-    let placement = placement(object, look, names);
+    let made_of = material_field(object, look, names);
+    shown(object, look, made_of, scene, names)
+}
+
+/// An object of a light, which glows.
+pub fn glowing(object: &Object, glow: Value, scene: &Scene, names: &Glossary) -> Entry {
+    let look = Look::Emissive { radiance: DVec3::ONE };
+    shown(object, Some(&look), Some(Entry::field("material", glow)), scene, names)
+}
+
+fn shown(
+    object: &Object,
+    look: Option<&Look>,
+    made_of: Option<Entry>,
+    scene: &Scene,
+    names: &Glossary,
+) -> Entry {
+    let placement: Vec<Entry> = transform_field(object).into_iter().chain(made_of).collect();
     let mut notes = object.notes.clone();
-    notes.extend(object.picture().and_then(picture::note));
+    notes.extend(object.laid_picture().and_then(picture::note));
     let value = match (&object.shape, names.shape(&object.shape)) {
         (Shape::Group(objects), _) => {
             let inner = entries(objects, scene, names);
@@ -49,7 +67,7 @@ pub fn shape_value(shape: &Shape, look: Option<&Look>, placement: Vec<Entry>) ->
             ("disk ", fields)
         }
         Shape::Cuboid { min, max } => ("box ", points(&[("min", min), ("max", max)])),
-        Shape::Mesh { file } => ("mesh ", mesh_fields(file)),
+        Shape::Mesh { file, smooth } => ("mesh ", mesh_fields(file, *smooth)),
         Shape::Revolve { profile } => ("revolve ", vec![Entry::field("profile", profile_value(profile))]),
         Shape::Group(_) => ("group ", Vec::new()),
     };
@@ -57,28 +75,39 @@ pub fn shape_value(shape: &Shape, look: Option<&Look>, placement: Vec<Entry>) ->
     Value::Block(head.into(), fields)
 }
 
-/// The fields that every object has: `transform` and `material`.
-fn placement(object: &Object, look: Option<&Look>, names: &Glossary) -> Vec<Entry> {
-    let mut fields = Vec::new();
-    if !object.steps.is_empty() {
-        let steps = object.steps.iter().map(step).collect(); // applied from left to right
-        fields.push(Entry::field("transform", Value::Chain(steps)));
+fn transform_field(object: &Object) -> Option<Entry> {
+    let steps: Vec<String> = object.steps.iter().map(step).collect(); // applied from left to right
+    (!steps.is_empty()).then(|| Entry::field("transform", Value::Chain(steps)))
+}
+
+/// The material by its name, or in full where the object has a picture of its own.
+fn material_field(object: &Object, look: Option<&Look>, names: &Glossary) -> Option<Entry> {
+    let index = object.material?;
+    let laid = look.and_then(|look| picture::material(object, look));
+    let value = laid.or_else(|| own_picture(object, look?, names));
+    Some(Entry::field("material", value.unwrap_or_else(|| names.material(index).into())))
+}
+
+/// The object's material with the object's own picture.
+fn own_picture(object: &Object, look: &Look, names: &Glossary) -> Option<Value> {
+    let mut look = look.clone();
+    let mut slots = look.textures();
+    let picture = object.picture.as_ref().filter(|_| !slots.is_empty())?;
+    for slot in &mut slots {
+        slot.picture = Some(picture.clone());
     }
-    if let Some(index) = object.material {
-        let pictured = look.and_then(|look| picture::material(object, look));
-        fields.push(Entry::field("material", pictured.unwrap_or_else(|| names.material(index).into())));
-    }
-    fields
+    Some(material_value(&look, names))
 }
 
 fn look_of<'a>(object: &Object, scene: &'a Scene) -> Option<&'a Look> {
     Some(&scene.materials.get(object.material?)?.look)
 }
 
-/// The original has flat normals; those of the file, if any, are skipped.
-fn mesh_fields(file: &Asset) -> Vec<Entry> {
-    let mut fields = vec![Entry::field("file", string(&file.path)), Entry::field("smooth", "false")];
-    if file.missing {
+/// The normals of the file, if any, are skipped where the original's are flat.
+fn mesh_fields(file: &Asset, smooth: bool) -> Vec<Entry> {
+    let smooth = if smooth { "true" } else { "false" };
+    let mut fields = vec![Entry::field("file", string(&file.path)), Entry::field("smooth", smooth)];
+    if !file.beside {
         fields.push(Entry::field("missing", "skip"));
     }
     fields
@@ -103,10 +132,13 @@ fn rounded_or_exact(x: f64) -> String {
 
 /// Four points make one cubic, whichever way they are read.
 fn profile_value(profile: &Profile) -> Value {
-    let points =
-        profile.points.iter().map(|(radius, height)| format!("({}, {})", number(*radius), number(*height)));
+    let points = profile
+        .points
+        .iter()
+        .map(|&(radius, height)| format!("({}, {})", rounded_or_exact(radius), rounded_or_exact(height)));
     let (open, close) = match profile.kind {
         Curve::Bspline => ("bspline [", "]"),
+        Curve::Polyline => ("polyline [", "]"),
         Curve::Bezier if profile.points.len() == 4 => ("bezier [", "]"),
         Curve::Bezier => ("bezier(degree: all, [", "])"),
     };

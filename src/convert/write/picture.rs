@@ -24,7 +24,7 @@ pub fn note(picture: &PlanePicture) -> Option<String> {
 
 /// The object's material with its picture for the colour, and the colour around the picture; if it has one.
 pub fn material(object: &Object, look: &Look) -> Option<Value> {
-    let picture = object.picture()?;
+    let picture = object.laid_picture()?;
     let image = |name, border| {
         Entry::field(name, Value::Block("image ".into(), image_fields(picture, object, border)))
     };
@@ -40,6 +40,7 @@ pub fn material(object: &Object, look: &Look) -> Option<Value> {
         | Look::Emissive { .. }
         | Look::Mix { .. }
         | Look::Metal { .. }
+        | Look::Solid { .. }
         | Look::Placeholder => None,
     }
 }
@@ -55,7 +56,7 @@ fn image_fields(picture: &PlanePicture, object: &Object, border: DVec3) -> Vec<E
         Entry::field("wrap", "border"),
         Entry::field("border", color(border)),
     ];
-    if picture.file.missing {
+    if !picture.file.beside {
         fields.push(Entry::field("missing", "skip"));
     }
     fields

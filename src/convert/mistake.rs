@@ -1,13 +1,11 @@
 //! What can be wrong or doubtful in a file of the family, each with its place and its cure.
 
-use miette::{Diagnostic, Severity, SourceSpan};
-use rustc_hash::FxHashMap;
-use std::fmt;
-use std::mem::{Discriminant, discriminant};
+use super::notebook::MOST_OF_A_KIND;
+use miette::{Diagnostic, SourceSpan};
 
 /// A mistake in the file, or something a person should know about its conversion.
 ///
-/// Which of them end the conversion depends on the mode, see [`ConvertError::severity`].
+/// Which of them end the conversion depends on the mode, see [`Mistake::gravity`].
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Diagnostic)]
 #[allow(missing_docs)] // the message of each variant says what it is, the labels what its places are
 pub enum Mistake {
@@ -117,7 +115,10 @@ pub enum Mistake {
     },
 
     #[error("`MaterialIndex {index}` is out of range: the file has {count} materials")]
-    #[diagnostic(code(snell::convert::index_out_of_range), help("indices count from 0, so the last one is {last}", last = count.saturating_sub(1)))]
+    #[diagnostic(
+        code(snell::convert::index_out_of_range),
+        help("a grey placeholder stands in. Indices count from 0, so the last one is {last}", last = count.saturating_sub(1))
+    )]
     IndexOutOfRange {
         index: i64,
         count: usize,
@@ -139,7 +140,7 @@ pub enum Mistake {
     },
 
     #[error("this `{shape}` has no material")]
-    #[diagnostic(code(snell::convert::no_material), help("write `MaterialIndex 0` before it"))]
+    #[diagnostic(code(snell::convert::no_material), help("it is grey; write `MaterialIndex 0` before it"))]
     NoMaterial {
         shape: String,
         #[label("no `MaterialIndex` comes before it")]
@@ -199,6 +200,43 @@ pub enum Mistake {
         said: String,
         found: usize,
         #[label("this count")]
+        at: SourceSpan,
+    },
+
+    #[error("`{key}` was taken as {meant}, by the look of it")]
+    #[diagnostic(
+        code(snell::convert::guessed),
+        help(
+            "no program of the family that the converter knows has this key; see whether the result is right"
+        )
+    )]
+    Guessed {
+        key: String,
+        meant: String,
+        #[label("a guess")]
+        at: SourceSpan,
+    },
+
+    #[error("`{name}` was taken as {meant}, by the look of it")]
+    #[diagnostic(
+        code(snell::convert::guessed_block),
+        help("the course's format has no such block; see whether the result is right")
+    )]
+    GuessedBlock {
+        name: String,
+        meant: &'static str,
+        #[label("a guess")]
+        at: SourceSpan,
+    },
+
+    #[error("the file holds {count} scenes")]
+    #[diagnostic(
+        code(snell::convert::several_scenes),
+        help("each becomes a file of its own; the original would have shown the last one")
+    )]
+    SeveralScenes {
+        count: usize,
+        #[label("the second begins here")]
         at: SourceSpan,
     },
 
@@ -364,132 +402,61 @@ pub enum Mistake {
     },
 }
 
+/// How bad a mistake is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gravity {
+    /// Nothing is left to convert.
+    Fatal,
+    /// It breaks the rules of the format; what belongs to it is mended or left out.
+    Wrong,
+    /// It is nothing that the converter knows; it is left out or guessed at.
+    Unknown,
+    /// A person should know of it.
+    Doubt,
+}
+
 impl Mistake {
-    /// Whether the conversion goes on: nothing is lost, or what is lost is named.
-    fn is_warning(&self) -> bool {
+    /// How bad it is. In strict mode everything wrong or unknown is an error, otherwise only what is fatal.
+    pub fn gravity(&self) -> Gravity {
         use Mistake::*;
-        self.is_unknown()
-            || matches!(
-                self,
-                IndexAtCount { .. }
-                    | NoCamera
-                    | More { .. }
-                    | CountMismatch { .. }
-                    | Repeated { .. }
-                    | Comment { .. }
-                    | NormalNotUnit { .. }
-                    | UpNotPerpendicular { .. }
-                    | DisputedAngle { .. }
-                    | LightsDropped { .. }
-                    | MissingAsset { .. }
-                    | AssetElsewhere { .. }
-                    | NotConvertible { .. }
-                    | Differs { .. }
-            )
-    }
-
-    /// Whether this is a construct the converter does not understand: an error in strict mode.
-    fn is_unknown(&self) -> bool {
-        use Mistake::*;
-        matches!(
-            self,
+        match self {
+            TooLarge { .. } | TooDeep { .. } | Empty => Gravity::Fatal,
+            UnclosedBrace { .. }
+            | UnclosedBracket { .. }
+            | StrayClose { .. }
+            | MissingNumber { .. }
+            | NotANumber { .. }
+            | MissingValue { .. }
+            | MissingField { .. }
+            | BadValue { .. }
+            | IndexOutOfRange { .. }
+            | NoMaterial { .. }
+            | EmptyTransform { .. }
+            | CrowdedTransform { .. }
+            | ProfileOffPlane { .. }
+            | ProfileTooShort { .. } => Gravity::Wrong,
             UnknownField { .. }
-                | UnknownBlock { .. }
-                | StrayToken { .. }
-                | LetterCase { .. }
-                | NotReadYet { .. }
-        )
-    }
-}
-
-/// A [`Mistake`] with the severity that the mode of conversion gives it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ConvertError {
-    /// What it is.
-    pub mistake: Mistake,
-    /// Errors leave the conversion without a result.
-    pub severity: Severity,
-}
-
-impl ConvertError {
-    /// Whether it keeps the scene from being written.
-    pub fn is_error(&self) -> bool {
-        self.severity == Severity::Error
-    }
-}
-
-impl fmt::Display for ConvertError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.mistake.fmt(f)
-    }
-}
-
-impl std::error::Error for ConvertError {}
-
-impl Diagnostic for ConvertError {
-    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.mistake.code()
-    }
-    fn severity(&self) -> Option<Severity> {
-        Some(self.severity)
-    }
-    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.mistake.help()
-    }
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {
-        self.mistake.labels()
-    }
-}
-
-/// How many mistakes of a kind are listed; a file of noise has millions.
-const MOST_OF_A_KIND: usize = 100;
-
-/// Collects mistakes while a file is converted.
-#[derive(Debug, Default)]
-pub struct Notebook {
-    strict: bool,
-    list: Vec<ConvertError>,
-    /// How many of each kind there were; only looked up.
-    counts: FxHashMap<Discriminant<Mistake>, usize>,
-    /// How many were not listed.
-    unlisted: usize,
-}
-
-impl Notebook {
-    /// In strict mode, whatever the converter does not understand is an error.
-    pub fn new(strict: bool) -> Self {
-        Self { strict, ..Self::default() }
-    }
-
-    /// Notes a mistake.
-    ///
-    /// Mistakes of one kind have one severity, so what is not listed never hides an error.
-    pub fn note(&mut self, mistake: Mistake) {
-        let count = self.counts.entry(discriminant(&mistake)).or_default();
-        *count += 1;
-        if *count > MOST_OF_A_KIND {
-            self.unlisted += 1;
-            return;
+            | UnknownBlock { .. }
+            | StrayToken { .. }
+            | LetterCase { .. }
+            | Guessed { .. }
+            | GuessedBlock { .. }
+            | NotReadYet { .. } => Gravity::Unknown,
+            IndexAtCount { .. }
+            | NoCamera
+            | SeveralScenes { .. }
+            | More { .. }
+            | CountMismatch { .. }
+            | Repeated { .. }
+            | Comment { .. }
+            | NormalNotUnit { .. }
+            | UpNotPerpendicular { .. }
+            | DisputedAngle { .. }
+            | LightsDropped { .. }
+            | MissingAsset { .. }
+            | AssetElsewhere { .. }
+            | NotConvertible { .. }
+            | Differs { .. } => Gravity::Doubt,
         }
-        let is_warning = mistake.is_warning() && !(self.strict && mistake.is_unknown());
-        let severity = if is_warning { Severity::Warning } else { Severity::Error };
-        self.list.push(ConvertError { mistake, severity });
-    }
-
-    /// Whether anything noted keeps the scene from being written.
-    pub fn has_errors(&self) -> bool {
-        self.list.iter().any(ConvertError::is_error)
-    }
-
-    /// Everything noted, by the place of the first label; mistakes without a place come last.
-    pub fn into_sorted(mut self) -> Vec<ConvertError> {
-        if self.unlisted > 0 {
-            self.note(Mistake::More { count: self.unlisted });
-        }
-        self.list.sort_by_key(|error| {
-            let first = error.labels().and_then(|mut labels| labels.next());
-            first.map_or(usize::MAX, |label| label.offset())
-        });
-        self.list
     }
 }

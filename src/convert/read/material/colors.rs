@@ -1,0 +1,213 @@
+//! Materials that say a colour for each thing a surface does to light.
+
+use super::lobes::mixed;
+use super::{USUAL_INDEX, clear};
+use crate::convert::dialect::Dialect;
+use crate::convert::fields::{Field, Fields};
+use crate::convert::model::{Look, Texture};
+use crate::convert::read::Reader;
+use crate::math::DVec3;
+
+impl Reader<'_> {
+    /// A material of diffuse, specular, mirror and transparent colours.
+    ///
+    /// The course: `diffuse max(0, L.N) + specular max(0, V.R)^n` for each light, no shadows. MIT of 2004 adds
+    /// `reflectiveColor` times the mirrored ray and `transparentColor` times the refracted one; its later editions
+    /// weigh both of these with `specularColor`, the latter where `refractionIndex` is above 0.
+    pub(super) fn colored_look(
+        &mut self,
+        fields: &mut Fields<'_>,
+        dialect: Dialect,
+        notes: &mut Vec<String>,
+    ) -> Look {
+        let has_diffuse = fields.has("color") || fields.peek("diffuse").is_some_and(Field::is_vector);
+        let mirror = self.color_of(fields, "mirror", "the share and colour of a `mirror`");
+        let glass = self.color_of(fields, "glass", "the share and colour of `glass`");
+        let index = self.index(fields, &["index", "refraction", "refr", "refractRate"]);
+        let is_glass = index.is_some_and(|index| index > 0.0);
+        let reflects_specular = matches!(dialect, Dialect::Mit2010 | Dialect::Mit2016) || is_glass;
+
+        if dialect == Dialect::Implied && mirror.is_none() && glass.is_none() && !has_diffuse {
+            return self.implied_look(fields, index);
+        }
+        if mirror.is_none() && glass.is_none() && !reflects_specular {
+            return self.phong_look(fields, notes);
+        }
+        let specular = self.peek_color(fields, "specular");
+        let index = index.filter(|index| *index > 0.0).unwrap_or(USUAL_INDEX);
+        let mut lobes = Vec::new();
+        if mirror.is_some() || glass.is_some() {
+            lobes.push((mirror.unwrap_or_default(), Layer::Mirror));
+            lobes.push((glass.unwrap_or_default(), Layer::Glass(index)));
+        } else {
+            let layer = if is_glass { Layer::Glass(index) } else { Layer::Mirror };
+            lobes.push((specular, layer));
+        }
+        let base = match has_diffuse || !is_glass {
+            true => self.phong_look(fields, notes),
+            false => {
+                self.log.take(fields, "specular").inspect(|field| {
+                    self.log.mapped(&field.span, "the colour of the glass");
+                });
+                Look::Diffuse { color: Texture::plain(DVec3::ZERO) }
+            }
+        };
+        layered(base, &lobes, notes)
+    }
+
+    /// The hybrid in which the fields that are there imply the kind: an index is glass, a specular colour alone a mirror.
+    fn implied_look(&mut self, fields: &mut Fields<'_>, index: Option<f64>) -> Look {
+        let color = match self.log.take(fields, "specular") {
+            Some(field) => {
+                self.log.mapped(&field.span, "colour");
+                self.reflectance(&field)
+            }
+            None if index.is_some() => DVec3::ONE,
+            None => return Look::Diffuse { color: Texture::plain(DVec3::ZERO) },
+        };
+        match index {
+            Some(index) => clear(index, color),
+            None => Look::Mirror { color: Texture::plain(color) },
+        }
+    }
+
+    fn color_of(&mut self, fields: &mut Fields<'_>, role: &str, to: &str) -> Option<DVec3> {
+        let field = self.log.take(fields, role)?;
+        self.log.mapped(&field.span, to);
+        let color = self.reflectance(&field);
+        (color != DVec3::ZERO).then_some(color)
+    }
+
+    fn peek_color(&self, fields: &Fields<'_>, role: &str) -> DVec3 {
+        fields.peek(role).map_or(DVec3::ZERO, Field::vector).clamp(DVec3::ZERO, DVec3::ONE)
+    }
+
+    /// A Phong lobe over a diffuse one, or a diffuse one alone.
+    pub(super) fn phong_look(&mut self, fields: &mut Fields<'_>, notes: &mut Vec<String>) -> Look {
+        let color = self.one_color(fields);
+        let specular = self.log.take_any(fields, &["specular", "specular or share"]);
+        let specular_color = specular.as_ref().map_or(DVec3::ZERO, |field| self.reflectance(field));
+        let shininess = self.log.take(fields, "shininess");
+        let roughness = if shininess.is_none() { self.roughness(fields) } else { 0.0 };
+        let ambient = "part of the ambient light, for which an environment stands";
+        self.log.put_aside(fields, &["ambient"], ambient);
+        let matte = Look::Diffuse { color: Texture::plain(color) };
+        if specular_color == DVec3::ZERO {
+            for field in [&specular, &shininess].into_iter().flatten() {
+                self.log.mapped(&field.span, "no highlight");
+            }
+            return matte;
+        }
+        let specular_span = specular.map(|field| field.span).unwrap_or_default();
+        let how = "a `phong` lobe whose highlight is as bright as the original's at its middle";
+        self.log.approximated(&specular_span, how);
+        let exponent = match &shininess {
+            Some(field) => {
+                self.log.mapped(&field.span, "`shininess`");
+                field.number(0).clamp(0.0, 1e5)
+            }
+            None if roughness > 0.0 => exponent_of(roughness),
+            None => 0.0,
+        };
+        if exponent == 0.0 && !self.dialect.is_mit() {
+            self.log.differs(
+                "`specularColor` without `shininess` brightens the whole surface in the original",
+                &specular_span,
+                "it became a lobe of exponent 0, which is as wide; add `shininess` for a highlight",
+            );
+        }
+        fitted_phong(Texture::plain(color), specular_color, exponent, notes)
+    }
+}
+
+/// What lies over a base.
+#[derive(Clone, Copy)]
+enum Layer {
+    Mirror,
+    Glass(f64),
+}
+
+/// The Phong exponent whose lobe is as wide as GGX's of this roughness: `2 / alpha^2 - 2` (Walter et al. 2007).
+pub(super) fn exponent_of(roughness: f64) -> f64 {
+    let alpha = (roughness * roughness).max(5e-3);
+    (2.0 / (alpha * alpha) - 2.0).max(0.0)
+}
+
+/// A base and layers that the original adds up, as lobes that are chosen by their shares.
+///
+/// What a lobe of share p and colour c adds is p c. The shares are in proportion to the colours' largest components m, so
+/// the lobe of colour a has the colour a / p; where all m together are above 1, everything is divided by their sum, as
+/// otherwise more light would leave than arrives.
+fn layered(base: Look, layers: &[(DVec3, Layer)], notes: &mut Vec<String>) -> Look {
+    let base_most = brightest(&base);
+    let sum = base_most + layers.iter().map(|(color, _)| color.max_element()).sum::<f64>();
+    if sum > 1.0 {
+        notes.push(format!("The original's lobes add up to {:.3} of the light; these are scaled to 1.", sum));
+    }
+    let scale = sum.max(1.0);
+    let mut lobes = vec![(base_most, brightened(base, sum / (base_most * scale)))];
+    for &(color, layer) in layers {
+        let most = color.max_element();
+        if most <= 0.0 {
+            continue;
+        }
+        let color = (color * (sum / (most * scale))).min(DVec3::ONE);
+        let look = match layer {
+            Layer::Mirror => Look::Mirror { color: Texture::plain(color) },
+            Layer::Glass(index) => clear(index, color),
+        };
+        lobes.push((most, look));
+    }
+    let total: f64 = lobes.iter().map(|(share, _)| share).sum();
+    if total <= 0.0 {
+        return Look::Diffuse { color: Texture::plain(DVec3::ZERO) };
+    }
+    mixed(lobes.into_iter().map(|(share, look)| (share / total, look)).collect())
+}
+
+/// The largest share of light that a base reflects in any component.
+fn brightest(look: &Look) -> f64 {
+    match look {
+        Look::Diffuse { color } => color.color.max_element(),
+        Look::Phong { diffuse, specular, .. } => (diffuse.color + *specular).max_element(),
+        _ => 0.0,
+    }
+}
+
+fn brightened(look: Look, factor: f64) -> Look {
+    let factor = if factor.is_finite() { factor } else { 1.0 };
+    let times = |texture: Texture| Texture { color: (texture.color * factor).min(DVec3::ONE), ..texture };
+    match look {
+        Look::Diffuse { color } => Look::Diffuse { color: times(color) },
+        Look::Phong { diffuse, specular, shininess } => {
+            let diffuse = times(diffuse);
+            let room = DVec3::ONE - diffuse.color;
+            Look::Phong { specular: (specular * factor).min(room), diffuse, shininess }
+        }
+        look => look,
+    }
+}
+
+/// A Phong lobe that shows like the course's own.
+///
+/// There, a light of colour c adds `c specular (V.R)^n`; here, with light that makes a white diffuse surface as bright
+/// as there, it adds `c specular (n + 2) / 2 (V.R)^n cos`: the lobe is normalised. So the highlights are equally bright
+/// for a specular colour of `2 / (n + 2)` of the original's. Both lobes are scaled where together they would reflect
+/// more than they receive.
+pub(super) fn fitted_phong(
+    diffuse: Texture,
+    specular: DVec3,
+    shininess: f64,
+    notes: &mut Vec<String>,
+) -> Look {
+    let specular = specular * (2.0 / (shininess + 2.0));
+    notes.push("`specular` makes the highlight as bright as the original's, which is not normalised.".into());
+    let most = (diffuse.color + specular).max_element();
+    if most <= 1.0 {
+        return Look::Phong { diffuse, specular, shininess };
+    }
+    let divisor = (most * 1e3).ceil() / 1e3; // so that rounding cannot bring the sum above 1
+    notes.push(format!("Both colours are divided by {divisor}, lest more light leaves than arrives."));
+    let diffuse = Texture { color: diffuse.color / divisor, ..diffuse };
+    Look::Phong { diffuse, specular: specular / divisor, shininess }
+}

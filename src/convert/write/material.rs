@@ -1,0 +1,88 @@
+//! Materials and their pictures.
+
+use super::glossary::Glossary;
+use super::layout::{Entry, Value};
+use super::text::{color, number, rounded, string};
+use crate::convert::model::{Asset, Look, Texture};
+use crate::math::DVec3;
+
+pub fn material_value(look: &Look, names: &Glossary) -> Value {
+    let block = |head: &str, fields: Vec<Entry>| Value::Block(format!("{head} "), fields);
+    match look {
+        Look::Diffuse { color } => block("diffuse", vec![texture_field("color", color)]),
+        Look::Phong { diffuse, specular, shininess } => block(
+            "phong",
+            vec![
+                texture_field("diffuse", diffuse),
+                Entry::field("specular", color(*specular)),
+                Entry::field("shininess", rounded(*shininess)),
+            ],
+        ),
+        Look::Mirror { color } => block("mirror", vec![texture_field("color", color)]),
+        Look::Metal { color, roughness } => block(
+            "metal",
+            vec![texture_field("color", color), Entry::field("roughness", rounded(*roughness))],
+        ),
+        Look::Glass { ior, tint } => glass(*ior, *tint),
+        Look::Emissive { radiance } => block("emissive", vec![Entry::field("radiance", color(*radiance))]),
+        Look::Mix(lobes) => mix(lobes, names),
+        Look::Solid { parts: [a, b], cells } => {
+            let amount: Value = match cells {
+                Some(size) => {
+                    let fields = vec![
+                        Entry::field("a", "0"),
+                        Entry::field("b", "1"),
+                        Entry::field("size", rounded(*size)),
+                    ];
+                    Value::Block("checker ".into(), fields)
+                }
+                None => "0.5".into(),
+            };
+            let fields = vec![
+                Entry::field("a", names.material(*a)),
+                Entry::field("b", names.material(*b)),
+                Entry::field("amount", amount),
+            ];
+            block("mix", fields)
+        }
+        Look::Placeholder => block("diffuse", vec![Entry::field("color", "0.5")]),
+    }
+}
+
+fn glass(ior: f64, tint: DVec3) -> Value {
+    let fields = vec![Entry::field("ior", number(ior)), Entry::field("tint", color(tint))];
+    Value::Block("glass ".into(), fields)
+}
+
+/// `mix` joins two materials, so more of them nest: `amount` is the share of `b` in what is left.
+fn mix(lobes: &[(f64, Look)], names: &Glossary) -> Value {
+    let [(_, first), rest @ ..] = lobes else { return "diffuse {}".into() };
+    let a = material_value(first, names);
+    if rest.is_empty() {
+        return a;
+    }
+    let share = |lobes: &[(f64, Look)]| lobes.iter().map(|(share, _)| share).sum::<f64>();
+    let amount = share(rest) / share(lobes);
+    let fields = vec![
+        Entry::field("a", a),
+        Entry::field("b", mix(rest, names)),
+        Entry::field("amount", rounded(amount)),
+    ];
+    Value::Block("mix ".into(), fields)
+}
+
+fn texture_field(name: &str, texture: &Texture) -> Entry {
+    match &texture.picture {
+        Some(picture) => Entry::field(name, image(picture)),
+        None => Entry::field(name, color(texture.color)),
+    }
+}
+
+/// A picture; one that is not beside the scene may be missing, which then is no mistake.
+pub fn image(picture: &Asset) -> Value {
+    if picture.beside {
+        return format!("image({})", string(&picture.path)).into();
+    }
+    let parts = vec![Entry::field("file", string(&picture.path)), Entry::field("missing", "skip")];
+    Value::Block("image ".into(), parts)
+}
