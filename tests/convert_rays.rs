@@ -103,7 +103,7 @@ fn disagreements(source: &Scene, snell: &str, path: &Path) -> (Vec<String>, usiz
             let expected = source.closest_hit(origin, way).map(|t| origin + way * t);
             let ray = lowered.world.camera.ray(pixel, middle, middle);
             let hit = lowered.world.closest_hit(&ray);
-            let found = hit.map(|hit| lowered.center + (ray.origin + ray.dir * hit.t).as_dvec3());
+            let found = hit.map(|hit| lowered.center + (ray.o + ray.d * hit.t).as_dvec3());
             hits += usize::from(expected.is_some());
             if !agree(expected, found, origin, source.slack) {
                 misses.push(format!("pixel {pixel:?}: {expected:?} in the source, {found:?} in the result"));

@@ -57,13 +57,14 @@ pub fn convert(text: &str) {
         return;
     }
     let conversion = convert_text(text, "fuzz.txt", &Options::default(), None);
-    assert!(conversion.snell.is_some() || conversion.has_errors(), "nothing came out, and nothing is wrong");
-    let Some(scene) = conversion.snell else { return };
-    let (mut sources, main) = source(&scene).unwrap_or_else(|| panic!("the scene is far too long"));
-    let mut problems = Problems::default();
-    syntax::parse(&mut sources, &Memory::default(), main, &mut problems);
-    if problems.has_errors() {
-        panic!("{}\n{scene}", problems.into_report(&sources).render_short());
+    assert!(!conversion.scenes.is_empty() || conversion.has_errors(), "nothing came out, and nothing is wrong");
+    for scene in &conversion.scenes {
+        let (mut sources, main) = source(&scene.snell).unwrap_or_else(|| panic!("the scene is far too long"));
+        let mut problems = Problems::default();
+        syntax::parse(&mut sources, &Memory::default(), main, &mut problems);
+        if problems.has_errors() {
+            panic!("{}\n{}", problems.into_report(&sources).render_short(), scene.snell);
+        }
     }
 }
 

@@ -5,7 +5,8 @@ use super::messages::Messages;
 use super::session;
 use super::{Exit, fail, note, print};
 use crate::convert::{
-    Angle, Basis, Conversion, Dialect, DiskFinder, Falloff, Lights, Options, PlaneSign, Planes, report,
+    Angle, Basis, Conversion, Dialect, DiskFinder, Falloff, Lights, Options, PlaneSign, Planes, Rendition,
+    report,
 };
 use crate::output;
 use crate::source::SourceMap;
@@ -34,6 +35,9 @@ pub struct ConvertArgs {
     /// Treat warnings as errors
     #[arg(long, value_name = "WHAT")]
     deny: Option<Deny>,
+    /// What the picture is to look like: what it shows, or the original's pictures
+    #[arg(long, value_name = "HOW", default_value = "physical")]
+    look: LookArg,
     /// How the camera's basis is made where `up` leans
     #[arg(long, value_name = "HOW")]
     basis: Option<BasisArg>,
@@ -63,6 +67,14 @@ pub struct ConvertArgs {
     verbose: bool,
     #[command(flatten)]
     messages: MessageArgs,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum LookArg {
+    /// Light is simulated.
+    Physical,
+    /// Phong's terms are added up where the original does so, by `method: classic`.
+    Original,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -207,6 +219,10 @@ fn options(args: &ConvertArgs) -> Options {
             AngleArg::Horizontal => Angle::Horizontal,
             AngleArg::Both => Angle::Both,
         }),
+        rendition: match args.look {
+            LookArg::Physical => Rendition::Physical,
+            LookArg::Original => Rendition::Original,
+        },
         lights: match args.lights {
             LightsArg::Auto => Lights::Auto,
             LightsArg::Keep => Lights::Keep,

@@ -50,6 +50,18 @@ pub struct Options {
     pub planes: Planes,
     /// On which side of the origin the `offset` of a plane is.
     pub plane_sign: PlaneSign,
+    /// Whether light is to behave as it does, or as in the original program.
+    pub rendition: Rendition,
+}
+
+/// What a converted scene is to look like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Rendition {
+    /// Like the things it shows: light is simulated.
+    #[default]
+    Physical,
+    /// Like the pictures of the original program, where that adds up Phong's terms instead of simulating light.
+    Original,
 }
 
 /// How a camera's right vector is made from `direction` and `up`.

@@ -16,6 +16,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     pub objects: Vec<Object>,
     pub settings: Settings,
+    /// Whether it is to be shown by Phong's terms, as the original does.
+    pub is_classic: bool,
     /// The folders, seen from the scene's, from which its files were found.
     pub asset_roots: Vec<String>,
 }
@@ -57,6 +59,8 @@ pub struct Lens {
 #[derive(Debug)]
 pub struct Background {
     pub color: DVec3,
+    /// Light on everything, apart from what is seen; only where Phong's terms are kept.
+    pub ambient: DVec3,
     /// A picture of everything around, in its place.
     pub picture: Option<Asset>,
     pub notes: Vec<String>,
@@ -131,6 +135,17 @@ pub enum Look {
     Emissive {
         radiance: DVec3,
     },
+    /// The terms of the original, as they are.
+    Whitted {
+        diffuse: Texture,
+        specular: DVec3,
+        shininess: f64,
+        reflection: DVec3,
+        transmission: DVec3,
+        ior: f64,
+        /// Whether the angle of view shares light between reflection and transmission.
+        fresnel: bool,
+    },
     /// Lobes with their shares, which are above 0 and add up to 1.
     Mix(Vec<(f64, Look)>),
     /// Two materials of the scene, by their indices, in solid cells of this size or evenly blended.
@@ -147,7 +162,7 @@ impl Look {
     pub fn textures(&mut self) -> Vec<&mut Texture> {
         match self {
             Self::Diffuse { color } | Self::Mirror { color } | Self::Metal { color, .. } => vec![color],
-            Self::Phong { diffuse, .. } => vec![diffuse],
+            Self::Phong { diffuse, .. } | Self::Whitted { diffuse, .. } => vec![diffuse],
             Self::Mix(lobes) => lobes.iter_mut().flat_map(|(_, lobe)| lobe.textures()).collect(),
             Self::Glass { .. } | Self::Emissive { .. } | Self::Solid { .. } | Self::Placeholder => Vec::new(),
         }

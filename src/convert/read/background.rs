@@ -22,7 +22,11 @@ impl Reader<'_> {
     /// MIT's editions add an ambient light to it, `ambient * diffuse` on every surface, which a constant environment
     /// of that radiance gives a surface that sees all of it; and without any light the ambient light is 1.
     pub(super) fn background(&mut self, block: Option<Block<'_>>, is_unlit: bool) -> Background {
-        let mut background = Background { color: DVec3::splat(0.5), picture: None, notes: Vec::new() };
+        let mut background =
+            Background { color: DVec3::splat(0.5), ambient: DVec3::ZERO, picture: None, notes: Vec::new() };
+        if self.is_classic() && self.dialect.is_mit() && is_unlit {
+            background.ambient = DVec3::ONE;
+        }
         let Some(block) = block else {
             background.notes.push("The file has no `Background`; the original then takes this grey.".into());
             return background;
@@ -31,7 +35,9 @@ impl Reader<'_> {
         self.log.mapped(&fields.head, "`environment`");
         if let Some(field) = self.log.take(&mut fields, "color") {
             background.color = self.light_colour(&field);
-            if background.color == DVec3::ZERO {
+            if self.is_classic() {
+                self.log.mapped(&field.span, "what rays see that meet nothing");
+            } else if background.color == DVec3::ZERO {
                 self.log.mapped(&field.span, "black, which is what an empty scene shows");
             } else {
                 let how = "a constant `environment`, which also lights the scene";
@@ -47,7 +53,12 @@ impl Reader<'_> {
     fn ambient(&mut self, fields: &mut Fields<'_>, background: &mut Background, is_unlit: bool) {
         let field = self.log.take(fields, "ambient");
         let ambient = field.as_ref().map_or(DVec3::ZERO, |field| field.vector().max(DVec3::ZERO));
-        if self.dialect.is_mit() && is_unlit {
+        if self.is_classic() {
+            if let Some(field) = field {
+                self.log.mapped(&field.span, "`ambient`");
+                background.ambient = if is_unlit { DVec3::ONE } else { ambient };
+            }
+        } else if self.dialect.is_mit() && is_unlit {
             background.color = DVec3::ONE;
             background.notes.push("Without any light the original's ambient light is 1.".into());
             if let Some(field) = field {

@@ -27,7 +27,7 @@ use super::model::{Asset, Light, Material, Scene};
 use super::notebook::Notebook;
 use super::parse::{Block, Span, Word};
 use super::report::Fate;
-use super::{Basis, Options};
+use super::{Basis, Options, Rendition};
 use crate::math::DVec3;
 use std::collections::BTreeMap;
 
@@ -100,6 +100,12 @@ impl<'a> Reader<'a> {
 }
 
 impl Reader<'_> {
+    /// Whether the terms of the original are kept: those of a program that simulates light are kept in any case.
+    fn is_classic(&self) -> bool {
+        let adds_terms = self.dialect == Dialect::Pa1 || self.dialect.is_mit();
+        self.options.rendition == Rendition::Original && adds_terms
+    }
+
     fn note_not_read(&mut self, what: impl Into<String>, at: &Span, done: &'static str) {
         self.log.notes.note(Mistake::NotReadYet { what: what.into(), at: at.clone().into(), done });
     }

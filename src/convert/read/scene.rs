@@ -97,6 +97,7 @@ impl Reader<'_> {
         let background = self.background(top.background, lights.is_empty());
         self.tell_unused_materials(&objects);
         Scene {
+            is_classic: self.is_classic(),
             detection,
             camera,
             background,

@@ -15,6 +15,12 @@ use std::f64::consts::PI;
 /// leaves it. So E = pi c, and for a point light at distance d an intensity of pi c d^2.
 pub fn entry(light: &Light, scene: &Scene, names: &Glossary) -> Entry {
     match light {
+        Light::Point { position, color, falloff, .. } if scene.is_classic => {
+            classic_point(*position, *color, *falloff)
+        }
+        Light::Directional { direction, color } if scene.is_classic => {
+            classic_directional(*direction, *color)
+        }
         Light::Point { position, color, falloff, notes } => {
             point_light(*position, *color, *falloff, scene).noted(notes)
         }
@@ -42,6 +48,26 @@ pub fn entry(light: &Light, scene: &Scene, names: &Glossary) -> Entry {
             object::glowing(object, glow, scene, names)
         }
     }
+}
+
+/// The original's light as it is, with its own law of fading.
+fn classic_point(position: DVec3, light: DVec3, falloff: DVec3) -> Entry {
+    let mut parts = vec![Entry::field("position", point(position)), Entry::field("intensity", color(light))];
+    if falloff == DVec3::X {
+        parts.push(Entry::field("falloff", "none"));
+    } else if falloff != DVec3::Z {
+        parts.push(Entry::field("falloff", point(falloff)));
+    }
+    Entry::item(Value::Block("light point ".into(), parts))
+}
+
+fn classic_directional(direction: DVec3, light: DVec3) -> Entry {
+    let parts = vec![
+        Entry::field("direction", point(direction)),
+        Entry::field("irradiance", "1"),
+        Entry::field("color", color(light)),
+    ];
+    Entry::item(Value::Block("light directional ".into(), parts))
 }
 
 /// Intensity such that the light is as bright at the middle of the scene as the original's there.

@@ -25,6 +25,27 @@ pub fn material_value(look: &Look, names: &Glossary) -> Value {
         ),
         Look::Glass { ior, tint } => glass(*ior, *tint),
         Look::Emissive { radiance } => block("emissive", vec![Entry::field("radiance", color(*radiance))]),
+        Look::Whitted { diffuse, specular, shininess, reflection, transmission, ior, fresnel } => {
+            let mut fields = vec![texture_field("diffuse", diffuse)];
+            let mut add = |name, factor: DVec3| {
+                if factor != DVec3::ZERO {
+                    fields.push(Entry::field(name, color(factor)));
+                }
+            };
+            add("specular", *specular);
+            add("reflection", *reflection);
+            add("transmission", *transmission);
+            if *specular != DVec3::ZERO && *shininess > 0.0 {
+                fields.push(Entry::field("shininess", rounded(*shininess)));
+            }
+            if *transmission != DVec3::ZERO {
+                fields.push(Entry::field("ior", number(*ior)));
+            }
+            if *fresnel {
+                fields.push(Entry::field("fresnel", "true"));
+            }
+            block("whitted", fields)
+        }
         Look::Mix(lobes) => mix(lobes, names),
         Look::Solid { parts: [a, b], cells } => {
             let amount: Value = match cells {

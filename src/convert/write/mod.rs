@@ -11,7 +11,7 @@ mod picture;
 mod text;
 
 use super::dialect::Dialect;
-use super::model::{Background, Camera, Scene, Settings};
+use super::model::{Background, Camera, Scene};
 use crate::math::DVec3;
 use layout::{Entry, Value, comment, paragraph};
 use std::collections::BTreeSet;
@@ -30,11 +30,11 @@ pub fn write(scene: &Scene, name: &str) -> String {
     let camera = scene.camera.iter().map(|camera| camera_entry(camera, dialect)).collect();
     let sections = [
         camera,
-        background(&scene.background),
+        background(&scene.background, scene.is_classic),
         said_once(scene.lights.iter().map(|light| light::entry(light, scene, &names)).collect()),
         names.bindings(scene),
         object::entries(&scene.objects, scene, &names),
-        vec![render_entry(dialect, &scene.settings)],
+        vec![render_entry(scene)],
     ];
     for section in sections.iter().filter(|section| !section.is_empty()) {
         out.push('\n');
@@ -113,7 +113,7 @@ fn film(camera: &Camera, dialect: Dialect) -> Entry {
 }
 
 /// Black needs no words: rays that meet nothing bring nothing.
-fn background(background: &Background) -> Vec<Entry> {
+fn background(background: &Background, is_classic: bool) -> Vec<Entry> {
     let radiance: Value = match &background.picture {
         Some(picture) => material::image(picture),
         None if background.color == DVec3::ZERO => {
@@ -124,14 +124,36 @@ fn background(background: &Background) -> Vec<Entry> {
     };
     let parts = vec![Entry::field("radiance", radiance)];
     let note = "What rays see that meet nothing. In the original it lights nothing; here it lights the scene as well.";
-    let notes: Vec<String> = background.notes.iter().cloned().chain([note.to_string()]).collect();
+    let note = (!is_classic).then(|| note.to_string());
+    let notes: Vec<String> = background.notes.iter().cloned().chain(note).collect();
     vec![Entry::item(Value::Block("environment ".into(), parts)).noted(&notes)]
 }
 
-/// The renderer of arsenal.txt maps photons; for the others any method will do.
-fn render_entry(dialect: Dialect, settings: &Settings) -> Entry {
-    let method = if dialect == Dialect::Arsenal { "ppm" } else { "auto" };
+/// The renderer of arsenal.txt maps photons; for the others any method will do, unless their own terms are kept.
+fn render_entry(scene: &Scene) -> Entry {
+    let method: Value = match scene.detection.dialect {
+        dialect if scene.is_classic => classic(dialect, scene.background.ambient),
+        Dialect::Arsenal => "ppm".into(),
+        _ => "auto".into(),
+    };
     let mut parts = vec![Entry::field("method", method)];
-    parts.extend(settings.samples.map(|samples| Entry::field("stop", format!("samples({samples})"))));
+    parts.extend(scene.settings.samples.map(|samples| Entry::field("stop", format!("samples({samples})"))));
     Entry::item(Value::Block("render ".into(), parts))
+}
+
+/// How the original adds up its terms: the course's casts no shadows and sends its rays through the corners of pixels.
+fn classic(dialect: Dialect, ambient: DVec3) -> Value {
+    let mut parts = Vec::new();
+    if dialect == Dialect::Pa1 {
+        parts.extend([
+            Entry::field("shadows", "false"),
+            Entry::field("backs", "dark"),
+            Entry::field("pixel", "corner"),
+        ]);
+    }
+    if ambient != DVec3::ZERO {
+        parts.push(Entry::field("ambient", color(ambient)));
+    }
+    parts.push(Entry::field("quantise", "floor"));
+    Value::Block("classic ".into(), parts)
 }

@@ -31,6 +31,11 @@ pub fn of_look(look: &Look, index: usize) -> String {
     match look {
         Look::Diffuse { color } => surface("matte", color),
         Look::Phong { diffuse, .. } => surface("glossy", diffuse),
+        Look::Whitted { transmission, diffuse, .. } if *transmission != DVec3::ZERO => {
+            surface("clear", diffuse)
+        }
+        Look::Whitted { specular: DVec3::ZERO, diffuse, .. } => surface("matte", diffuse),
+        Look::Whitted { diffuse, .. } => surface("glossy", diffuse),
         Look::Metal { color, .. } => surface("metal", color),
         Look::Mirror { color } => match hue(color.color) {
             None if color.color.max_element() > 0.8 => "silver_mirror".into(),

@@ -40,6 +40,7 @@ pub fn material(object: &Object, look: &Look) -> Option<Value> {
         | Look::Emissive { .. }
         | Look::Mix { .. }
         | Look::Metal { .. }
+        | Look::Whitted { .. }
         | Look::Solid { .. }
         | Look::Placeholder => None,
     }

@@ -20,6 +20,9 @@ impl Reader<'_> {
         dialect: Dialect,
         notes: &mut Vec<String>,
     ) -> Look {
+        if self.is_classic() {
+            return self.whitted_look(fields);
+        }
         let has_diffuse = fields.has("color") || fields.peek("diffuse").is_some_and(Field::is_vector);
         let mirror = self.color_of(fields, "mirror", "the share and colour of a `mirror`");
         let glass = self.color_of(fields, "glass", "the share and colour of `glass`");
@@ -53,6 +56,40 @@ impl Reader<'_> {
             }
         };
         layered(base, &lobes, notes)
+    }
+
+    /// The terms of the original as they are: see [`Self::colored_look`].
+    fn whitted_look(&mut self, fields: &mut Fields<'_>) -> Look {
+        let diffuse = Texture::plain(self.term(fields, "diffuse").unwrap_or(DVec3::ONE));
+        let specular = self.term(fields, "specular").unwrap_or_default();
+        let mirror = self.term(fields, "mirror").unwrap_or_default();
+        let glass = self.term(fields, "glass").unwrap_or_default();
+        let shininess = self.log.take(fields, "shininess");
+        if let Some(field) = &shininess {
+            self.log.mapped(&field.span, "`shininess`");
+        }
+        let usual = if self.dialect == Dialect::Mit2004 { 1.0 } else { 0.0 };
+        let shininess = shininess.map_or(usual, |field| field.number(0)).clamp(0.0, 1e5);
+        let index = self.index(fields, &["index", "refraction", "refr", "refractRate"]).unwrap_or(0.0);
+
+        let by_specular = matches!(self.dialect, Dialect::Mit2010 | Dialect::Mit2016);
+        let fresnel = by_specular && index > 0.0;
+        let (reflection, transmission) = match (by_specular, fresnel) {
+            (true, true) => (specular, specular),
+            (true, false) => (specular, DVec3::ZERO),
+            (false, _) => (mirror, glass),
+        };
+        Look::Whitted { diffuse, specular, shininess, reflection, transmission, ior: index.max(1.0), fresnel }
+    }
+
+    /// The factor of a term; `diffuse` goes by two names.
+    fn term(&mut self, fields: &mut Fields<'_>, role: &str) -> Option<DVec3> {
+        let field = match self.log.take(fields, role) {
+            None if role == "diffuse" => self.log.take(fields, "color"),
+            field => field,
+        }?;
+        self.log.mapped(&field.span, "a factor of `whitted`");
+        Some(field.vector().max(DVec3::ZERO))
     }
 
     /// The hybrid in which the fields that are there imply the kind: an index is glass, a specular colour alone a mirror.

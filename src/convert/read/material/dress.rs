@@ -1,5 +1,6 @@
 //! Pictures of materials.
 
+use crate::convert::dialect::Dialect;
 use crate::convert::fields::{Field, Fields};
 use crate::convert::model::Asset;
 use crate::convert::model::Look;
@@ -17,6 +18,9 @@ impl Reader<'_> {
             self.log.drop_all(&inner.span, "reflection by the angle of view is that of the material here");
         }
         if let Some(field) = self.log.take(fields, "texture") {
+            if self.is_classic() && self.dialect == Dialect::Pa1 {
+                return self.log.ignored(&field.span, "the original reads it and shows no picture");
+            }
             self.picture_of(look, &field, notes);
         }
         for (role, what) in [
