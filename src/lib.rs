@@ -29,7 +29,7 @@ pub mod syntax;
 
 use check::Checked;
 use diag::Problems;
-use resolve::Setting;
+use resolve::{Limits, Setting};
 use source::{FileId, Files, SourceMap, Spanned};
 
 /// From the text of `main`, which `sources` holds, to a scene that makes sense.
@@ -44,9 +44,22 @@ pub fn compile(
     sets: &[(String, String)],
     problems: &mut Problems,
 ) -> Option<Checked> {
+    compile_within(sources, files, main, sets, &Limits::default(), problems)
+}
+
+/// [`compile`], with other limits on what the scene may ask for.
+pub fn compile_within(
+    sources: &mut SourceMap,
+    files: &dyn Files,
+    main: FileId,
+    sets: &[(String, String)],
+    limits: &Limits,
+    problems: &mut Problems,
+) -> Option<Checked> {
     let ast = syntax::parse(sources, files, main, problems); // what was written, includes read
     let settings: Vec<Setting> = sets.iter().filter_map(|set| setting(set, sources, problems)).collect();
-    let scene = resolve::resolve(&ast, sources, &settings, problems); // what it means: names bound, units applied
+    // What it means: names bound, units applied.
+    let scene = resolve::resolve_within(&ast, sources, &settings, limits, problems);
     let checked = check::check(scene, problems); // that it makes sense as a whole
     allow::check(problems); // that what it silences are warnings
     checked

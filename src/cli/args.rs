@@ -1,10 +1,12 @@
 //! Arguments that several commands share, and how their values are written.
 
+use crate::diag::did_you_mean;
+use crate::resolve::Limits;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 /// Which scene, and where its files are.
-#[derive(Args, Debug)]
+#[derive(Args, Default, Debug)]
 pub struct SceneArgs {
     /// Set a parameter of the scene, type-checked; may be repeated
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = name_and_value)]
@@ -15,6 +17,9 @@ pub struct SceneArgs {
     /// Let the scene name files outside its folder
     #[arg(long)]
     pub allow_outside: bool,
+    /// Raise a limit on what the scene may ask for: objects, turns, elements, steps or problems
+    #[arg(long = "limit", value_name = "NAME=N", value_parser = limit)]
+    pub limits: Vec<(String, u64)>,
     /// Treat warnings as errors
     #[arg(long, value_name = "WHAT")]
     pub deny: Option<Deny>,
@@ -94,6 +99,19 @@ fn name_and_value(text: &str) -> Result<(String, String), String> {
     }
 }
 
+/// `objects=1e8`: a limit by name, and what it shall be.
+fn limit(text: &str) -> Result<(String, u64), String> {
+    let (name, value) =
+        name_and_value(text).map_err(|_| "write NAME=N, such as `objects=100000000`".to_owned())?;
+    if !Limits::NAMES.contains(&name.as_str()) {
+        let near = did_you_mean(&name, Limits::NAMES);
+        return Err(near.unwrap_or_else(|| format!("the limits are {}", Limits::NAMES.join(", "))));
+    }
+    let number = value.replace('_', "").parse::<f64>().ok();
+    let whole = number.filter(|number| (1.0..=1e18).contains(number) && number.fract() == 0.0);
+    whole.map(|number| (name, number as u64)).ok_or_else(|| format!("`{value}` is no whole number from 1 on"))
+}
+
 /// `640x480`: both at least 1 and at most 65,536.
 pub fn size(text: &str) -> Result<(u32, u32), String> {
     let sides =
@@ -147,6 +165,9 @@ mod tests {
         assert!(seconds("-1s").is_err() && seconds("nan").is_err() && seconds("soon").is_err());
         assert_eq!(share("2%"), Ok(0.02));
         assert!(share("0").is_err());
+        assert_eq!(limit("objects=1e8"), Ok(("objects".to_owned(), 100_000_000)));
+        assert_eq!(limit("objcts=5"), Err("did you mean `objects`?".to_owned()));
+        assert!(limit("steps=-1").is_err() && limit("steps").is_err());
         assert!(name_and_value("seats").is_err() && name_and_value("=3").is_err());
     }
 }

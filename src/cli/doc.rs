@@ -51,7 +51,7 @@ fn print_entries(word: &str, width: usize) {
 /// Lists what a scene defines.
 fn scene(path: &str, args: &DocArgs, width: usize) -> Exit {
     let (asset_dirs, allow_outside) = (args.asset_dirs.clone(), args.allow_outside);
-    let scene_args = SceneArgs { sets: Vec::new(), asset_dirs, allow_outside, deny: None };
+    let scene_args = SceneArgs { asset_dirs, allow_outside, ..SceneArgs::default() };
     let mut session = match Session::open(Path::new(path), &scene_args) {
         Ok(session) => session,
         Err(reason) => return fail(reason),

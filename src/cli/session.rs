@@ -5,7 +5,7 @@ use super::messages::Messages;
 use crate::check::Checked;
 use crate::diag::{Problems, Report, Style};
 use crate::ir::Camera;
-use crate::resolve::Offer;
+use crate::resolve::{Limits, Offer};
 use crate::source::{Disk, Files, Missing, SourceMap};
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
@@ -23,6 +23,7 @@ pub struct Session {
     pub name: String,
     main: crate::source::FileId,
     sets: Vec<(String, String)>,
+    limits: Limits,
     deny: Option<Deny>,
 }
 
@@ -44,12 +45,17 @@ impl Session {
         let main = sources.add(name.clone(), path.clone(), text.into()).ok_or("the scene is too large")?;
         let files = Disk::new(&path, args.asset_dirs.clone(), args.allow_outside);
         let (sets, deny) = (args.sets.clone(), args.deny);
-        Ok(Self { sources, files, problems: Problems::default(), name, main, sets, deny })
+        let mut limits = Limits::default();
+        args.limits.iter().for_each(|(limit, value)| {
+            limits.set(limit, *value);
+        });
+        Ok(Self { sources, files, problems: Problems::default(), name, main, sets, limits, deny })
     }
 
     /// Compiles the text. `None` when so much is wrong that nothing is left to check.
     pub fn compile(&mut self) -> Option<Checked> {
-        crate::compile(&mut self.sources, &self.files, self.main, &self.sets, &mut self.problems)
+        let (sources, problems) = (&mut self.sources, &mut self.problems);
+        crate::compile_within(sources, &self.files, self.main, &self.sets, &self.limits, problems)
     }
 
     /// What the scene defines.
@@ -81,7 +87,8 @@ impl Session {
         let mut sets = self.sets.clone();
         sets.push((name.to_owned(), value.to_owned()));
         let (files, name) = (self.files.clone(), self.name.clone());
-        Self { sources, files, problems: Problems::default(), name, main, sets, deny: self.deny }
+        let (limits, deny) = (self.limits.clone(), self.deny);
+        Self { sources, files, problems: Problems::default(), name, main, sets, limits, deny }
     }
 
     /// The camera that the scene is seen through: the one asked for, or the first.

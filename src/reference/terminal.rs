@@ -7,7 +7,8 @@ use std::fmt::Write;
 
 /// What there is, area by area.
 pub fn overview(width: usize) -> String {
-    let mut out = String::from("The language, area by area. `snell doc WORD` shows more of any of them.\n");
+    let mut out = String::new();
+    wrapped(&mut out, "The language, area by area. `snell doc WORD` shows more of any of them.", 0, width);
     for area in Area::ALL {
         let blocks = schema::blocks().filter(|block| block.area == area);
         section(&mut out, area.title(), blocks.map(|block| (block.kind.to_owned(), block.doc)), width);

@@ -161,17 +161,13 @@ impl<'a> Resolver<'a> {
         args: Vec<Given<'a, '_>>,
         used: Span,
     ) -> Option<Vec<Spanned<Value<'a>>>> {
-        let fitting: Vec<_> = function.forms.iter().filter_map(|form| in_order(form, &args)).collect();
-        let suits = |(form, order): &&(&[Arg], Vec<usize>)| {
-            form.iter()
-                .zip(order)
-                .all(|(arg, &i)| arg.takes.is_tuple() == matches!(*args[i].1, Value::Tuple(_)))
+        let (form, args) = match arrange(function, args) {
+            Ok(arranged) => arranged,
+            Err(args) => {
+                self.refuse_call(function, &args, used);
+                return None;
+            }
         };
-        let Some((form, order)) = fitting.iter().find(suits).or(fitting.first()) else {
-            self.refuse_call(function, &args, used);
-            return None;
-        };
-        let args: Vec<_> = order.iter().map(|&i| args[i].1.clone()).collect();
         if self.is_swapped(function, &args) {
             return None;
         }
@@ -379,24 +375,52 @@ impl<'a> Resolver<'a> {
     }
 }
 
-/// For each argument in the order of `form`, its index among those given. `None`: they do not fit.
-fn in_order<'f>(form: &'f [Arg], given: &[Given<'_, '_>]) -> Option<(&'f [Arg], Vec<usize>)> {
-    let (least, most) = Function::count(form);
-    if !(least..=most).contains(&given.len()) {
-        return None;
+/// The form that the arguments fit, and they in its order; or they as they were given.
+fn arrange<'a, 'n>(
+    function: &'static Function,
+    mut given: Vec<Given<'a, 'n>>,
+) -> Result<Arranged<'a>, Vec<Given<'a, 'n>>> {
+    let takes_as_many = |form: &&[Arg]| {
+        let (least, most) = Function::count(form);
+        (least..=most).contains(&given.len())
+    };
+    let fitting =
+        function.forms.iter().copied().filter(takes_as_many).filter(|form| has_places(form, &given));
+    let suits = |form: &&[Arg]| {
+        given.iter().enumerate().all(|(i, arg)| {
+            let takes = place_of(form, i, arg).and_then(|place| form.get(place)).map(|arg| arg.takes);
+            takes.is_none_or(|takes| takes.is_tuple() == matches!(*arg.1, Value::Tuple(_)))
+        })
+    };
+    let Some(form) = fitting.clone().find(suits).or_else(|| fitting.clone().next()) else {
+        return Err(given);
+    };
+    if given.iter().any(|(name, _)| name.is_some()) {
+        let mut places =
+            (0..given.len()).map(|i| place_of(form, i, &given[i])).collect::<Vec<_>>().into_iter();
+        given.sort_by_cached_key(|_| places.next());
     }
-    let mut order = vec![usize::MAX; given.len()];
-    for (i, (name, _)) in given.iter().enumerate() {
-        let place = match name {
-            Some(name) => form.iter().position(|arg| arg.name == name.value)?,
-            None => i,
-        };
-        match order.get_mut(place) {
-            Some(slot @ &mut usize::MAX) => *slot = i,
-            _ => return None,
-        }
+    Ok((form, given.into_iter().map(|(_, value)| value).collect()))
+}
+
+/// A form, and arguments in its order.
+type Arranged<'a> = (&'static [Arg], Vec<Spanned<Value<'a>>>);
+
+/// Where an argument stands in a form.
+fn place_of(form: &[Arg], position: usize, (name, _): &Given<'_, '_>) -> Option<usize> {
+    match name {
+        Some(name) => form.iter().position(|arg| arg.name == name.value),
+        None => Some(position),
     }
-    Some((form, order))
+}
+
+/// Whether every argument has a place of its own in a form.
+fn has_places(form: &[Arg], given: &[Given<'_, '_>]) -> bool {
+    given.iter().all(|(name, _)| name.is_none()) || {
+        let places: Vec<_> = given.iter().enumerate().map(|(i, arg)| place_of(form, i, arg)).collect();
+        let is_alone = |i: usize| places[i].is_some() && !places[..i].contains(&places[i]);
+        (0..places.len()).all(|i| is_alone(i) && places[i] < Some(given.len()))
+    }
 }
 
 /// The tangent, infinite where the cosine is nothing but rounding error.

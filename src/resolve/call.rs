@@ -1,5 +1,6 @@
 //! Calls of functions: those of the language and those of the scene.
 
+use super::constructor::is_curve;
 use super::error::Error;
 use super::scope::Scope;
 use super::value::Function;
@@ -14,6 +15,7 @@ impl<'a> Resolver<'a> {
     /// `ring(12, radius: 1m)`.
     pub(super) fn call(&mut self, callee: &'a Expr, args: &'a [Arg], used: Span, env: &Env<'a>) -> Value<'a> {
         if let ExprKind::Name(name) = &callee.kind
+            && is_curve(name)
             && env.find(name).is_none()
             && let Some(curve) = self.curve_call(name, args, used, env)
         {

@@ -220,6 +220,11 @@ fn curve_names() -> Vec<&'static str> {
     schema::functions().filter(|f| f.topic == Topic::Curves).map(|f| f.name).collect()
 }
 
+/// Whether a word says how points are joined.
+pub fn is_curve(word: &str) -> bool {
+    curve_kind(word).is_some()
+}
+
 fn curve_kind(word: &str) -> Option<CurveKind> {
     Some(match word {
         "bezier" => CurveKind::Bezier,

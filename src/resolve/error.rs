@@ -364,7 +364,7 @@ pub enum Error {
         #[label("the limit is passed here")]
         used: Span,
         #[help]
-        help: &'static str,
+        help: String,
     },
     #[error("this glass lets nothing through")]
     #[diagnostic(

@@ -1,5 +1,6 @@
 //! Expressions: each gives a value.
 
+use super::budget::Limit;
 use super::builtin;
 use super::dimension::{Dimension, Quantity, with_unit};
 use super::error::Error;
@@ -32,7 +33,10 @@ impl<'a> Resolver<'a> {
             ExprKind::Index { base, index } => self.index(base, index, env),
             ExprKind::Tagged { tag, value } => self.tagged(tag, value, env),
             ExprKind::On(target) => self.on(target, env),
-            ExprKind::Data(numbers) => Value::List(numbers.iter().map(|&x| Value::number(x)).collect()),
+            ExprKind::Data(numbers) => match self.spend(Limit::Elements, numbers.len() as u64, expr.span) {
+                true => Value::List(numbers.iter().map(|&x| Value::number(x)).collect()),
+                false => Value::Poison,
+            },
             ExprKind::List(parts) => self.list(parts, expr.span, env),
             ExprKind::Comprehension { value, name, range, filter } => {
                 self.comprehension(value, name, range, filter.as_deref(), env)
@@ -230,7 +234,7 @@ impl<'a> Resolver<'a> {
     }
 
     fn list(&mut self, parts: &'a [Expr], span: Span, env: &Env<'a>) -> Value<'a> {
-        if !self.spend_elements(parts.len(), span) {
+        if !self.spend(Limit::Elements, parts.len() as u64, span) {
             return Value::Poison;
         }
         Value::List(parts.iter().map(|part| self.eval(part, env)).collect())
@@ -259,7 +263,7 @@ impl<'a> Resolver<'a> {
                 this.enter(value.span);
                 list.push(this.eval(value, turn));
             }
-            this.spend_elements(1, value.span)
+            this.spend(Limit::Elements, 1, value.span)
         });
         if complete { Value::List(list.into()) } else { Value::Poison }
     }
@@ -274,28 +278,32 @@ impl<'a> Resolver<'a> {
         mut turn: impl FnMut(&mut Self, &Env<'a>) -> bool,
     ) -> bool {
         let over = self.eval(range, env);
+        let mut scope = Scope::new(Some(Rc::clone(env)));
         let mut one = |this: &mut Self, value: Value<'a>| {
-            let scope = Scope::new(Some(Rc::clone(env)));
             let number = match value {
                 Value::Number(quantity) => Some(quantity),
                 _ => None,
             };
-            scope.give(&name.value, name.span, value);
+            // Something that a turn made may still see its scope; mostly nothing does, and it serves again.
+            if Rc::strong_count(&scope) > 1 || !scope.give_again(&name.value, &value) {
+                scope = Scope::new(Some(Rc::clone(env)));
+                scope.give(&name.value, name.span, value);
+            }
             this.trail.push(Step::Turn(name, number));
             let go_on = turn(this, &scope);
             this.trail.pop();
-            go_on
+            go_on && !this.is_full()
         };
         match over {
             Value::Range(start, end, inclusive) => {
                 let turns = self.turns(start, end, inclusive, range.span);
-                let Some(turns) = turns.filter(|&turns| self.spend_turns(turns, range.span)) else {
+                let Some(turns) = turns.filter(|&turns| self.spend(Limit::Turns, turns, range.span)) else {
                     return false;
                 };
                 (0..turns).all(|i| one(self, Value::number(start.value + i as f64)))
             }
             Value::List(parts) => {
-                self.spend_turns(parts.len() as u64, range.span)
+                self.spend(Limit::Turns, parts.len() as u64, range.span)
                     && parts.iter().all(|part| one(self, part.clone()))
             }
             Value::Poison => {

@@ -133,7 +133,7 @@ impl<'a> Resolver<'a> {
     fn for_each(&mut self, name: &'a Name, range: &'a Expr, body: &'a Block, env: &Env<'a>, sink: &mut Sink) {
         self.repeat(name, range, env, |this, turn| {
             this.block_items(body, turn, sink);
-            !this.is_full()
+            true
         });
     }
 

@@ -31,7 +31,8 @@ use crate::diag::{Problems, Trail};
 use crate::ir;
 use crate::source::{SourceMap, Span, Spanned};
 use crate::syntax::ast::{self, Entry, FileIndex, ItemKind};
-use budget::Budget;
+pub use budget::Limits;
+use budget::{Budget, Limit};
 use dimension::Quantity;
 pub use error::Error;
 use miette::Diagnostic;
@@ -59,6 +60,17 @@ pub fn resolve(
     settings: &[Setting],
     problems: &mut Problems,
 ) -> ir::Scene {
+    resolve_within(program, sources, settings, &Limits::default(), problems)
+}
+
+/// [`resolve`], with other limits.
+pub fn resolve_within(
+    program: &ast::Program,
+    sources: &SourceMap,
+    settings: &[Setting],
+    limits: &Limits,
+    problems: &mut Problems,
+) -> ir::Scene {
     if program.files.is_empty() {
         return ir::Scene::default();
     }
@@ -66,6 +78,7 @@ pub fn resolve(
     let readable = !problems.has_errors();
     let findings = lint::lint(program, problems);
     let mut resolver = Resolver::new(program, sources, problems);
+    resolver.budget = Budget::new(limits);
     resolver.set_parameters(settings);
     resolver.run_file(FileIndex(0));
     resolver.evaluate_the_rest();
@@ -165,9 +178,8 @@ impl<'a> Resolver<'a> {
     fn report(&mut self, error: Error) {
         let offset = error.labels().and_then(|mut labels| labels.next()).map_or(0, |label| label.offset());
         let code = error.code().map(|code| code.to_string()).unwrap_or_default();
-        if self.reported.insert((code, offset)) {
-            let trail = self.trail.iter().rev().map(Step::told).collect();
-            self.problems.push_with_trail(error, trail);
+        if self.reported.insert((code, offset)) && self.may_report(&error) {
+            self.report_all_the_same(error);
         }
     }
 
@@ -178,6 +190,19 @@ impl<'a> Resolver<'a> {
             Step::Turn(..) => None,
         };
         self.trail.iter().rev().filter_map(call).collect()
+    }
+
+    /// Whether there are not too many mistakes already.
+    fn may_report(&mut self, error: &Error) -> bool {
+        let at = error.labels().and_then(|mut labels| labels.next());
+        let span =
+            at.map_or(Span::default(), |at| Span::new(at.offset() as u32, (at.offset() + at.len()) as u32));
+        self.spend(Limit::Problems, 1, span)
+    }
+
+    fn report_all_the_same(&mut self, error: Error) {
+        let trail = self.trail.iter().rev().map(Step::told).collect();
+        self.problems.push_with_trail(error, trail);
     }
 
     /// Notes a mistake and gives the value on which everything stays silent.

@@ -1,6 +1,6 @@
 //! Objects as values, and how they come into the picture.
 
-use super::budget::GROUPS;
+use super::budget::{GROUPS, Limit};
 use super::error::Error;
 use super::{Resolver, Value};
 use crate::ir::{self, Handle, LightKind, TransformStep};
@@ -39,10 +39,10 @@ pub enum NodeKind {
 
 /// What surrounds a node on its way into the picture.
 #[derive(Clone)]
-struct Surroundings {
+struct Surroundings<'n> {
     world: DAffine3,
-    /// Factors around it, the innermost first.
-    steps: Vec<TransformStep>,
+    /// What surrounds the place or group around it, with that.
+    outside: Option<(&'n Surroundings<'n>, &'n Node)>,
     /// What a `place` around it says, against the node's own material.
     forced: Option<Handle<ir::Material>>,
     /// What a group around it says, for nodes without a material.
@@ -93,7 +93,7 @@ impl<'a> Resolver<'a> {
         node.count = node.inner().iter().fold(own, |sum, inner| sum.saturating_add(inner.count));
         node.depth = 1 + node.inner().iter().map(|inner| inner.depth).max().unwrap_or(0);
         if node.depth > GROUPS {
-            let help = "put fewer groups into each other";
+            let help = "put fewer groups into each other".to_owned();
             self.over("objects inside objects", GROUPS.into(), span, help);
             return None;
         }
@@ -102,12 +102,12 @@ impl<'a> Resolver<'a> {
 
     /// Puts a node into the picture.
     pub(super) fn emit(&mut self, node: &Node) {
-        if !self.spend_objects(node.count, node.span) {
+        if !self.spend(Limit::Objects, node.count, node.span) {
             return;
         }
         let outside = Surroundings {
             world: DAffine3::IDENTITY,
-            steps: Vec::new(),
+            outside: None,
             forced: None,
             fallback: None,
             placed: None,
@@ -117,7 +117,7 @@ impl<'a> Resolver<'a> {
         self.emit_in(node, &outside);
     }
 
-    fn emit_in(&mut self, node: &Node, around: &Surroundings) {
+    fn emit_in(&mut self, node: &Node, around: &Surroundings<'_>) {
         match &node.kind {
             NodeKind::Shape(shape, handle) => self.emit_shape(shape, handle, node, around),
             NodeKind::Light(light) => self.emit_light(light, around),
@@ -155,14 +155,14 @@ impl<'a> Resolver<'a> {
         shape: &ir::Shape,
         handle: &Cell<Option<Handle<ir::Shape>>>,
         node: &Node,
-        around: &Surroundings,
+        around: &Surroundings<'_>,
     ) {
         let shapes = &mut self.scene.shapes;
         let shape_handle = handle.get().unwrap_or_else(|| shapes.push(shape.clone()));
         handle.set(Some(shape_handle));
         let world_from_object = around.world * compose(&node.transform);
         let transforms = if ir::is_singular(&world_from_object) || ir::is_squeezing(&world_from_object) {
-            node.transform.iter().chain(&around.steps).copied().collect()
+            node.transform.iter().copied().chain(around.steps()).collect()
         } else {
             Vec::new()
         };
@@ -177,14 +177,14 @@ impl<'a> Resolver<'a> {
         });
     }
 
-    fn emit_light(&mut self, light: &ir::Light, around: &Surroundings) {
+    fn emit_light(&mut self, light: &ir::Light, around: &Surroundings<'_>) {
         let Some(kind) = self.moved(light, around) else { return };
         let trail = around.trail.iter().rev().copied().collect();
         self.scene.lights.push(ir::Light { kind, trail, ..light.clone() });
     }
 
     /// The light in world space.
-    fn moved(&mut self, light: &ir::Light, around: &Surroundings) -> Option<LightKind> {
+    fn moved(&mut self, light: &ir::Light, around: &Surroundings<'_>) -> Option<LightKind> {
         let world = around.world;
         Some(match light.kind {
             LightKind::Point { position, falloff } => {
@@ -192,7 +192,7 @@ impl<'a> Resolver<'a> {
             }
             LightKind::Sphere { center, radius } => {
                 let Some(scale) = uniform_scale(&world) else {
-                    let transform = around.steps.first().map(|step| step.span);
+                    let transform = around.steps().next().map(|step| step.span);
                     self.report(Error::UnevenLight { light: light.span, transform });
                     return None;
                 };
@@ -213,16 +213,21 @@ impl<'a> Resolver<'a> {
     }
 }
 
-impl Surroundings {
+impl<'n> Surroundings<'n> {
     /// What surrounds the parts of `node`.
-    fn with(&self, node: &Node) -> Self {
-        let mut inside = self.clone();
+    fn with(&'n self, node: &'n Node) -> Self {
+        let mut inside = Self { outside: Some((self, node)), ..self.clone() };
         if !node.transform.is_empty() {
             inside.world = self.world * compose(&node.transform);
-            inside.steps = node.transform.iter().chain(&self.steps).copied().collect();
         }
         inside.trail.push(node.span);
         inside
+    }
+
+    /// Factors around it, the innermost first.
+    fn steps(&self) -> impl Iterator<Item = TransformStep> {
+        let around = std::iter::successors(self.outside, |(outside, _)| outside.outside);
+        around.flat_map(|(_, node)| node.transform.iter().copied())
     }
 
     /// The way here, the innermost first; the innermost `place` is where the object itself points.

@@ -1,5 +1,6 @@
 //! Operators between values.
 
+use super::budget::Limit;
 use super::dimension::{Dimension, Quantity};
 use super::error::Error;
 use super::{Env, Resolver, Value};
@@ -60,8 +61,12 @@ impl<'a> Resolver<'a> {
             {
                 Value::Bool(numbers_of(a).eq(numbers_of(b)) == (op == Equal))
             }
+            // Counted, for `a then a` doubles what `a` holds.
             (Then, Value::Transform(a), Value::Transform(b)) => {
-                Value::Transform(a.iter().chain(&**b).copied().collect())
+                match self.spend(Limit::Elements, (a.len() + b.len()) as u64, right.span) {
+                    true => Value::Transform(a.iter().chain(&**b).copied().collect()),
+                    false => Value::Poison,
+                }
             }
             (Per, Value::Color(color), Value::Number(_)) => {
                 let color = *color;

@@ -98,6 +98,18 @@ impl<'a> Scope<'a> {
         self.insert(name, span, Kind::Given, 1.0, State::Done(value));
     }
 
+    /// Gives a name of this scope another value. `false`: it is not defined yet, or someone holds on to its definition.
+    pub fn give_again(&self, name: &str, value: &Value<'a>) -> bool {
+        match self.definitions.borrow().get(name) {
+            Some(definition) if Rc::strong_count(definition) == 1 => {
+                *definition.state.borrow_mut() = State::Done(value.clone());
+                definition.name_id.set(None);
+                true
+            }
+            _ => false,
+        }
+    }
+
     /// Defines what the items of a file define, and those of the files it includes.
     pub fn declare_file(&self, program: &'a Program, file: FileIndex, units: &[f64]) {
         let unit = units[file.0 as usize];

@@ -1,6 +1,6 @@
 //! Laws of evaluation that are easier said in code than in a scene.
 
-use super::{Error, resolve};
+use super::{Error, Limits, resolve_within};
 use crate::diag::Problems;
 use crate::ir::{Scene, ShapeKind};
 use crate::source::{Memory, SourceMap};
@@ -9,14 +9,18 @@ use std::path::PathBuf;
 
 /// What a scene means, and the codes of what is wrong with it.
 fn meaning(text: &str) -> (Scene, Vec<String>) {
+    let (scene, problems) = meaning_within(text, &Limits::default());
+    (scene, problems.into_sorted().iter().map(|p| p.code().replace("snell::resolve::", "")).collect())
+}
+
+fn meaning_within(text: &str, limits: &Limits) -> (Scene, Problems) {
     let (mut sources, mut problems) = (SourceMap::default(), Problems::default());
     let text = format!("snell 1\n{text}");
     let main = sources.add("main.snell".to_owned(), PathBuf::from("main.snell"), text.into());
     let main = main.expect("the text is small");
     let program = syntax::parse(&mut sources, &Memory::default(), main, &mut problems);
-    let scene = resolve(&program, &sources, &[], &mut problems);
-    let codes = problems.into_sorted().iter().map(|p| p.code().replace("snell::resolve::", "")).collect();
-    (scene, codes)
+    let scene = resolve_within(&program, &sources, &[], limits, &mut problems);
+    (scene, problems)
 }
 
 /// The radius of the only sphere.
@@ -107,4 +111,47 @@ fn every_unit_that_a_blank_parts_from_its_number_is_known() {
         let (_, codes) = meaning(&format!("let _a = 3 {unit}"));
         assert_eq!(codes, ["snell::syntax::apart_unit"], "{unit}");
     }
+}
+
+/// What is said of a scene that asks for more than a limit of 100, and what of one that asks for less.
+fn at_a_limit(name: &str, more: &str, less: &str) {
+    let mut limits = Limits::default();
+    assert!(limits.set(name, 100), "there is no limit `{name}`");
+    let (_, problems) = meaning_within(more, &limits);
+    let helps: Vec<String> = problems
+        .list()
+        .iter()
+        .filter(|problem| problem.code().ends_with("budget"))
+        .filter_map(|problem| problem.error.help().map(|help| help.to_string()))
+        .collect();
+    assert_eq!(helps.len(), 1, "{name}");
+    assert!(helps[0].contains(&format!("`--limit {name}=1000`")), "{}", helps[0]);
+    let (_, problems) = meaning_within(less, &limits);
+    assert!(!problems.list().iter().any(|problem| problem.code().ends_with("budget")), "{name}");
+}
+
+#[test]
+fn every_limit_is_told_with_the_way_to_raise_it() {
+    let spheres = |n: u32| format!("let b = sphere {{ radius: 1m }}\nfor i in 0..{n} {{ place b }}");
+    at_a_limit("objects", &spheres(101), &spheres(100));
+    at_a_limit("turns", "for i in 0..50 { for j in 0..3 { } }", "for i in 0..25 { for j in 0..3 { } }");
+    at_a_limit("elements", "let _a = [i for i in 0..101]", "let _a = [i for i in 0..100]");
+    at_a_limit("elements", &format!("let _a = data [ {} ]", "1 ".repeat(101)), "let _a = data [ 1 2 ]");
+    at_a_limit("steps", &format!("let _a = [{}]", "1, ".repeat(101)), "let _a = [1, 2, 3]");
+    at_a_limit("problems", &"sphere { radius: x }\n".repeat(101), &"sphere { radius: x }\n".repeat(90));
+    assert!(!Limits::default().set("colours", 3));
+}
+
+#[test]
+fn what_grows_exponentially_ends_in_a_report() {
+    let doubled: String = (1..40).map(|i| format!("let t{i} = t{} then t{}\n", i - 1, i - 1)).collect();
+    let (_, codes) = meaning(&format!("let t0 = scale(2)\n{doubled}sphere {{ radius: 1m, transform: t39 }}"));
+    assert_eq!(codes, ["budget"]);
+    let calls: String =
+        (1..40).map(|i| format!("fn f{i}() -> number {{ f{}() + f{}() }}\n", i - 1, i - 1)).collect();
+    let mut limits = Limits::default();
+    limits.set("steps", 1_000_000);
+    let text = format!("fn f0() -> number {{ 1 }}\n{calls}sphere {{ radius: f39() * 1m }}");
+    let (_, problems) = meaning_within(&text, &limits);
+    assert_eq!(problems.list().iter().map(|p| p.code()).collect::<Vec<_>>(), ["snell::resolve::budget"]);
 }

@@ -29,6 +29,8 @@ pub use units::{UNITS, Unit};
 pub use words::{FORMS, Form, Place};
 
 use field::field;
+use std::collections::HashMap;
+use std::sync::LazyLock;
 
 /// A kind of block: `sphere { .. }`, `light sphere { .. }`.
 #[derive(Debug)]
@@ -165,7 +167,9 @@ pub fn blocks() -> impl Iterator<Item = &'static Block> {
 
 /// The block of this kind; the kind of a light has both its words.
 pub fn block(kind: &str) -> Option<&'static Block> {
-    blocks().find(|block| block.kind == kind)
+    static BY_KIND: LazyLock<HashMap<&str, &Block>> =
+        LazyLock::new(|| blocks().map(|block| (block.kind, block)).collect());
+    BY_KIND.get(kind).copied()
 }
 
 /// Every function of the language, topic by topic.
