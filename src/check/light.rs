@@ -4,7 +4,7 @@ use super::Check;
 use super::error::CheckError;
 use super::space::{Meshes, OwnMaterial};
 use crate::ir::light::EnvironmentRadiance;
-use crate::ir::{Brightness, Environment, Light, LightKind, MaterialKind, Object, ShapeKind};
+use crate::ir::{Brightness, Environment, Light, LightKind, MaterialKind, Method, Object, ShapeKind};
 use crate::math::{DVec3, Rgb};
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
@@ -107,7 +107,10 @@ impl Check<'_> {
             let is_painted = object.material.or(scene.shapes[object.shape].material).is_some();
             !is_painted && meshes.parts(object.shape).iter().any(|part| part.own == OwnMaterial::Shining)
         };
-        let lit = !scene.lights.is_empty()
+        let is_ambient = scene.render.method.is_some_and(|method| method.value == Method::Classic)
+            && !scene.render.classic.ambient.is_black();
+        let lit = is_ambient
+            || !scene.lights.is_empty()
             || scene.environment.as_ref().is_some_and(Environment::is_lit)
             || self.placed_materials().any(|(kind, _)| matches!(kind, MaterialKind::Emissive { .. }))
             || scene.objects.iter().any(is_lamp);

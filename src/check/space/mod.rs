@@ -16,7 +16,7 @@ mod view;
 use super::error::CheckError;
 use super::{Check, Checked};
 use crate::diag::Problems;
-use crate::ir::{Handle, LightKind, Object, Scene, Shape, ShapeKind};
+use crate::ir::{Handle, LightKind, Method, Object, Scene, Shape, ShapeKind};
 use crate::math::{DAffine3, DVec3, Vec3};
 use crate::source::Span;
 use region::{Extent, Region};
@@ -85,16 +85,16 @@ impl Check<'_> {
             return;
         }
         self.any_light(meshes);
-        let survey = Survey::of(self.scene, meshes);
-        let doubts = [
-            survey.rooms(),
-            survey.glass(),
-            survey.open_glass(meshes),
-            survey.aims(),
-            survey.views(),
-            survey.caustics(),
-            survey.short_paths(),
-        ];
+        let mut survey = Survey::of(self.scene, meshes);
+        let is_classic = self.scene.render.method.is_some_and(|method| method.value == Method::Classic);
+        let mut doubts = vec![survey.glass(), survey.open_glass(meshes), survey.views()];
+        if is_classic {
+            // There light may go through everything, and depth counts otherwise: only what is seen is certain.
+            survey.lamps.clear();
+        } else {
+            doubts.extend([survey.aims(), survey.caustics(), survey.short_paths()]);
+        }
+        doubts.push(survey.rooms());
         doubts.into_iter().flatten().for_each(|doubt| self.report(doubt));
     }
 }
