@@ -16,11 +16,16 @@ use std::path::{Path, PathBuf};
 /// Rays along each side of the picture.
 const SIDE: u32 = 100;
 
-/// How far two hits may be apart, as a share of the distance to them: what single precision leaves of a far one.
-const TOLERANCE: f64 = 2e-4;
+/// How far two hits may be apart, as a share of the distance to them: what single precision leaves of a far one, and
+/// what is lost where a curved shape that glows is cut into triangles.
+const TOLERANCE: f64 = 1e-3;
 
 /// How many of the rays may disagree: those that graze an edge.
 const GRAZING: usize = 10;
+
+/// The same where a mesh has polygons: the original takes them for fans of triangles, which for one with a dent stand over
+/// its edge; here such a polygon is filled as it should be.
+const GRAZING_FANS: usize = 100;
 
 #[test]
 fn converted_scenes_of_ours_are_hit_where_the_source_is() {
@@ -68,7 +73,7 @@ fn compare(path: &Path) -> usize {
         let (misses, hits) = disagreements(source, &converted.snell, path);
         println!("{}: {hits} hits, {} disagree", path.display(), misses.len());
         assert!(
-            misses.len() <= GRAZING,
+            misses.len() <= if source.has_polygons { GRAZING_FANS } else { GRAZING },
             "{}: {} rays disagree, such as {}\n{}",
             path.display(),
             misses.len(),
@@ -94,14 +99,14 @@ fn disagreements(source: &Scene, snell: &str, path: &Path) -> (Vec<String>, usiz
     let plan = snell::plan::plan(&loaded, Some(camera), None);
     let lowered = snell::lower::lower(&loaded, &plan, camera, &files, &mut problems).expect("a world");
 
-    let middle = Vec2::splat(0.5);
+    let (middle, lens_center) = (Vec2::splat(0.5), Vec2::ZERO);
     let (mut misses, mut hits) = (Vec::new(), 0);
     for y in 0..SIDE {
         for x in 0..SIDE {
             let pixel = [x * source.size[0] / SIDE, y * source.size[1] / SIDE];
             let (origin, way) = source.ray(pixel);
             let expected = source.closest_hit(origin, way).map(|t| origin + way * t);
-            let ray = lowered.world.camera.ray(pixel, middle, middle);
+            let ray = lowered.world.camera.ray(pixel, middle, lens_center);
             let hit = lowered.world.closest_hit(&ray);
             let found = hit.map(|hit| lowered.center + (ray.o + ray.d * hit.t).as_dvec3());
             hits += usize::from(expected.is_some());

@@ -8,9 +8,8 @@ use crate::math::{DMat3, DVec3};
 pub fn flatten(steps: &[Step]) -> bool {
     /// Below this the volume is rounding error.
     const VANISHING: f64 = 1e-11;
-    let moved = |p: DVec3| steps.iter().fold(p, |p, step| step.apply(p));
-    let origin = moved(DVec3::ZERO);
-    let [x, y, z] = DVec3::AXES.map(|axis| moved(axis) - origin);
+    let turned = |way: DVec3| steps.iter().fold(way, |way, step| step.apply_to_direction(way));
+    let [x, y, z] = DVec3::AXES.map(turned);
     let volume = DMat3::from_cols(x, y, z).determinant().abs();
     !(volume > VANISHING * x.length() * y.length() * z.length())
 }
@@ -25,6 +24,18 @@ impl Step {
         }
     }
 
+    /// What the step does to a direction.
+    fn apply_to_direction(&self, way: DVec3) -> DVec3 {
+        match self {
+            Self::Translate(_) => way,
+            Self::Matrix(m) => {
+                let row = |i: usize| m[4 * i] * way.x + m[4 * i + 1] * way.y + m[4 * i + 2] * way.z;
+                DVec3::new(row(0), row(1), row(2))
+            }
+            step => step.apply(way),
+        }
+    }
+
     /// Where the step takes a point.
     pub fn apply(&self, p: DVec3) -> DVec3 {
         match self {
@@ -32,10 +43,7 @@ impl Step {
             Self::Translate(by) => *by + p,
             Self::RotateAxis(axis, degrees) => turn(DVec3::AXES[*axis], *degrees, p),
             Self::Rotate(axis, degrees) => turn(axis.normalize(), *degrees, p),
-            Self::Matrix(m) => {
-                let row = |i: usize| m[4 * i] * p.x + m[4 * i + 1] * p.y + m[4 * i + 2] * p.z + m[4 * i + 3];
-                DVec3::new(row(0), row(1), row(2))
-            }
+            Self::Matrix(m) => self.apply_to_direction(p) + DVec3::new(m[3], m[7], m[11]),
         }
     }
 }

@@ -87,6 +87,10 @@ impl Log {
                 self.check_value(&mut field, "a file name", " FILE`, a name without spaces");
             }
             Some(Args::Lists) => take_lists(&mut field, nodes),
+            Some(Args::Maybe) => {
+                take_word(&mut field, nodes, |word, _| looks_like_value(word));
+                take_numbers(&mut field, nodes, usize::MAX);
+            }
             Some(Args::Free) => {
                 take_numbers(&mut field, nodes, usize::MAX);
                 if field.numbers.is_empty() {

@@ -30,7 +30,8 @@ enum Shape {
     Parallelogram(DVec3, DVec3, DVec3, bool),
     Disk(DVec3, DVec3, f64),
     Box(DVec3, DVec3),
-    Triangles(Vec<[DVec3; 3]>, DVec3, DVec3),
+    /// Triangles, the box around them, and whether some of them are parts of larger polygons.
+    Triangles(Vec<[DVec3; 3]>, DVec3, DVec3, bool),
     /// Straight pieces of a profile (radius, height) turned about y.
     Turned(Vec<(f64, f64)>),
 }
@@ -40,6 +41,8 @@ pub struct Scene {
     pub size: [u32; 2],
     /// How far hits may be apart besides what precision leaves; for cameras that the result stands in for.
     pub slack: f64,
+    /// Whether any mesh has faces of more than three corners.
+    pub has_polygons: bool,
     shapes: Vec<Placed>,
     center: DVec3,
     forward: DVec3,
@@ -191,6 +194,7 @@ fn scene(file: &Node, path: &Path) -> Option<Scene> {
     Some(Scene {
         size,
         slack: if is_orthographic { 2e-3 * side } else { 0.0 },
+        has_polygons: shapes.iter().any(|placed| matches!(placed.shape, Shape::Triangles(.., true))),
         shapes,
         center,
         forward,
@@ -214,7 +218,7 @@ fn walk(group: &Node, from_world: DAffine3, path: &Path, shapes: &mut Vec<Placed
 /// What lights show of themselves.
 fn walk_lights(lights: &Node, path: &Path, shapes: &mut Vec<Placed>) {
     for light in lights.blocks() {
-        let mut around = |a: &str, b: &str| {
+        let around = |a: &str, b: &str| {
             let (p, u, v) = (light.vector("position")?, light.vector(a)?, light.vector(b)?);
             Some(Shape::Parallelogram(p - u - v, 2.0 * u, 2.0 * v, false))
         };
@@ -256,6 +260,16 @@ fn transform(block: &Node) -> DAffine3 {
     }
     for (name, n) in words {
         let v = || DVec3::new(n[0], n[1], n[2]);
+        // Rows, or columns; the only operations that are multiplied on the left.
+        if name.starts_with("Matrix") {
+            let at = |row: usize, column: usize| {
+                n[if name == "Matrix" { 4 * row + column } else { 4 * column + row }]
+            };
+            let column = |j| DVec3::new(at(0, j), at(1, j), at(2, j));
+            let linear = DMat3::from_cols(column(0), column(1), column(2));
+            product = DAffine3::from_mat3_translation(linear, column(3)) * product;
+            continue;
+        }
         let turn = |m: fn(f64) -> DMat3| DAffine3::from_mat3(m(n[0].to_radians()));
         product *= match name.as_str() {
             "Translate" => DAffine3::from_translation(v()),
@@ -335,7 +349,7 @@ fn mesh(block: &Node, file: &str, path: &Path) -> Option<Shape> {
         .skip(1)
         .take(3)
         .find_map(|folder| std::fs::read_to_string(folder.join(file)).ok())?;
-    let (mut points, mut triangles) = (Vec::new(), Vec::new());
+    let (mut points, mut triangles, mut has_polygons) = (Vec::new(), Vec::new(), false);
     for line in text.lines() {
         let words: Vec<&str> = line.split_whitespace().collect();
         match words[..] {
@@ -347,6 +361,7 @@ fn mesh(block: &Node, file: &str, path: &Path) -> Option<Shape> {
                 let index = |corner: &&str| corner.split('/').next().and_then(|i| i.parse::<usize>().ok());
                 let corners: Vec<DVec3> =
                     corners.iter().filter_map(index).map(|index| points[index - 1]).collect();
+                has_polygons |= corners.len() > 3;
                 triangles.extend((2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]]));
             }
             _ => {}
@@ -354,7 +369,7 @@ fn mesh(block: &Node, file: &str, path: &Path) -> Option<Shape> {
     }
     let all = || triangles.iter().flatten().copied();
     let (low, high) = (all().fold(DVec3::INFINITY, DVec3::min), all().fold(DVec3::NEG_INFINITY, DVec3::max));
-    Some(Shape::Triangles(triangles, low, high))
+    Some(Shape::Triangles(triangles, low, high, has_polygons))
 }
 
 /// The profile in many straight pieces, on the right of the axis.
@@ -452,7 +467,7 @@ impl Shape {
                 let (near, far) = slabs(o, d, *low, *high)?;
                 Some(if near > 1e-9 { near } else { far }).filter(|t| *t > 1e-9)
             }
-            Self::Triangles(triangles, low, high) => {
+            Self::Triangles(triangles, low, high, _) => {
                 slabs(o, d, *low, *high)?;
                 let each = triangles
                     .iter()

@@ -22,8 +22,14 @@ impl Reader<'_> {
         one_sided && self.transform_depth == 0 && self.camera_center.is_some_and(is_behind)
     }
 
-    /// A plane of light has no end and so no power; a wide square, facing the camera, stands for it.
+    /// A plane of light has no end and so no power; a wide square, facing the camera, stands for it. Groups of light are
+    /// looked through.
     pub(super) fn bound(&mut self, object: &mut Object) {
+        if let Shape::Group(inner) = &mut object.shape {
+            for object in inner {
+                self.bound(object);
+            }
+        }
         let Shape::Plane { normal, offset, .. } = object.shape else { return };
         let camera = self.camera_center.filter(|_| self.transform_depth == 0).unwrap_or_default();
         let height = normal.dot(camera) - offset;

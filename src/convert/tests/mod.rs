@@ -3,6 +3,8 @@
 mod files;
 mod meaning;
 mod mutation;
+mod pages;
+mod rows;
 mod syntax;
 
 use super::parse::{Block, Node, Span};
@@ -10,7 +12,8 @@ use super::*;
 use crate::source::{Memory, SourceMap};
 use std::path::{Path, PathBuf};
 
-/// Files that a test's scenes name: every picture has 8 x 4 pixels, and what is called `lost` is missing.
+/// Files that a test's scenes name: every picture has 8 x 4 pixels, what is called `lost` is missing, and what is
+/// called `astray` lies elsewhere.
 struct Shelf;
 
 impl AssetFinder for Shelf {
@@ -18,6 +21,9 @@ impl AssetFinder for Shelf {
         match path {
             lost if lost.contains("lost") => {
                 Search::Missing { tried: vec![path.into(), format!("../{path}")] }
+            }
+            astray if astray.contains("astray") => {
+                Search::Elsewhere { path: "../other/astray.obj".into(), head: Vec::new() }
             }
             _ => Search::Found { root: "..".into(), head: b"P6\n8 4\n255\n".to_vec() },
         }

@@ -31,6 +31,8 @@ pub enum Args {
     Path,
     /// Numbers, or a word and then numbers.
     Free,
+    /// Nothing, a word for yes or no, or numbers.
+    Maybe,
     /// Lists in brackets.
     Lists,
 }

@@ -1,6 +1,6 @@
 //! Keys of groups, shapes and transforms.
 
-use super::Args::{Flag, Free, Lists, Numbers, Path};
+use super::Args::{Flag, Free, Lists, Maybe, Numbers, Path};
 use super::Values::{Number, Vector, Word};
 use super::{Vocabulary, row, stem};
 
@@ -55,9 +55,9 @@ pub static SHAPE: Vocabulary = Vocabulary {
         row("scale", Numbers(1), "scale"),
         row("scaling", Numbers(3), "scaling"),
         row("Y_inverse", Flag, "Y_inverse"),
-        row("smooth", Free, "smooth Smooth normalInterpolation"),
+        row("smooth", Maybe, "smooth Smooth normalInterpolation"),
         row("interpolate", Numbers(1), "interpolate"),
-        row("speed-up", Free, "use_BVH disableNormalTexture newton step"),
+        row("speed-up", Maybe, "use_BVH disableNormalTexture newton step"),
         row("material", Numbers(1), "MaterialIndex materialIndex"),
         row("texture", Path, "texture"),
         row("texture switch", Free, "useTexture"),
