@@ -158,7 +158,7 @@ impl Check<'_> {
         let least = color.min_component();
         if least < 0.0 {
             let what = "a channel of this colour";
-            self.report(CheckError::NegativeLight { what, found: least.into(), used: color.span });
+            self.report(CheckError::NegativeLight { what, found: least.to_string(), used: color.span });
         }
     }
 
