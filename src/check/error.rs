@@ -92,7 +92,10 @@ pub enum CheckError {
         near: usize,
     },
     #[error("this transform flattens what it moves")]
-    #[diagnostic(code(snell::check::singular_transform), help("no factor of a scale may be 0"))]
+    #[diagnostic(
+        code(snell::check::singular_transform),
+        help("no factor of a scale may be 0; for something flat use a `disk` or a `quad`")
+    )]
     SingularTransform {
         /// What the factor does.
         said: String,
@@ -165,7 +168,7 @@ pub enum CheckError {
     #[diagnostic(code(snell::check::negative_light), help("write 0 for none at all"))]
     NegativeLight {
         what: &'static str,
-        found: f64,
+        found: String,
         #[label("less than 0")]
         used: Span,
     },

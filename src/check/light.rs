@@ -73,9 +73,13 @@ impl Check<'_> {
             }
         };
         if least < 0.0 {
-            self.report(CheckError::NegativeLight { what, found: least, used: brightness.span });
+            let found = match brightness.value {
+                Brightness::Power(watts) => Type::Power.write(watts),
+                _ => (least as f32).to_string(), // as a colour holds it
+            };
+            self.report(CheckError::NegativeLight { what, found, used: brightness.span });
         } else if color.min_component() < 0.0 {
-            let (what, found) = ("a channel of this light's colour", color.min_component().into());
+            let (what, found) = ("a channel of this light's colour", color.min_component().to_string());
             self.report(CheckError::NegativeLight { what, found, used: light });
         } else if most == 0.0 {
             let help = "give it a power, such as `60W`, or take it away";
@@ -89,13 +93,13 @@ impl Check<'_> {
     fn environment(&mut self) {
         let Some(environment) = &self.scene.environment else { return };
         if environment.scale.value < 0.0 {
-            let (what, found) = ("the scale of the environment", environment.scale.value);
+            let (what, found) = ("the scale of the environment", environment.scale.value.to_string());
             self.report(CheckError::NegativeLight { what, found, used: environment.scale.span });
         }
         if let EnvironmentRadiance::Constant(radiance) = environment.radiance
             && radiance.min_component() < 0.0
         {
-            let (what, found) = ("the radiance of the environment", radiance.min_component().into());
+            let (what, found) = ("the radiance of the environment", radiance.min_component().to_string());
             self.report(CheckError::NegativeLight { what, found, used: environment.span });
         }
     }

@@ -158,7 +158,7 @@ impl Check<'_> {
         let least = color.min_component();
         if least < 0.0 {
             let what = "a channel of this colour";
-            self.report(CheckError::NegativeLight { what, found: least.into(), used: color.span });
+            self.report(CheckError::NegativeLight { what, found: least.to_string(), used: color.span });
         }
     }
 
@@ -166,7 +166,7 @@ impl Check<'_> {
         let (least, most) = (color.min_component(), color.max_component());
         if least < 0.0 {
             let what = "a channel of this colour";
-            self.report(CheckError::NegativeLight { what, found: least.into(), used: color.span });
+            self.report(CheckError::NegativeLight { what, found: least.to_string(), used: color.span });
         } else if most > 1.0 {
             let bytes = [color.r, color.g, color.b];
             // Whole numbers beyond 2 are the bytes of a picture.

@@ -199,8 +199,12 @@ impl Loader<'_, '_> {
     fn mention(&mut self, model: &Model, what: &Wanted<'_>) {
         let notes = &model.notes;
         if notes.degenerate > 0 {
-            let note = format!("{} of its triangles have no area and are left out", notes.degenerate);
-            self.note(what, note, "nothing is lost; clean the mesh to silence this");
+            let note = match notes.degenerate {
+                1 => "one of its triangles has no area and is left out".to_owned(),
+                many => format!("{many} of its triangles have no area and are left out"),
+            };
+            let help = "nothing is lost: clean the mesh, or write `allow(mesh_note, \"harmless\")` before it";
+            self.note(what, note, help);
         }
         if notes.partial_uvs > 0 {
             let note = "some faces have no texture points, so all of that group's are ignored".to_owned();

@@ -284,8 +284,12 @@ impl Lower<'_> {
             let hint = "write a value, or several with commas between: `(0m, 1m, 0m)`".to_owned();
             self.note(SyntaxError::MissingValue { what, hint, at: span });
         }
+        // Where a comma has nothing before it, nobody knows how many values there should be.
+        let has_gap =
+            self.errors[before..].iter().any(|error| matches!(error, SyntaxError::ExtraComma { .. }));
         match (values.len(), values.pop()) {
             (_, None) => poison(span),
+            _ if has_gap => poison(span),
             (1, Some(only)) => Expr { span, ..only },
             (_, Some(last)) => {
                 values.push(last);
