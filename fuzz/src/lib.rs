@@ -57,7 +57,10 @@ pub fn convert(text: &str) {
         return;
     }
     let conversion = convert_text(text, "fuzz.txt", &Options::default(), None);
-    assert!(!conversion.scenes.is_empty() || conversion.has_errors(), "nothing came out, and nothing is wrong");
+    assert!(
+        !conversion.scenes.is_empty() || conversion.has_errors(),
+        "nothing came out, and nothing is wrong"
+    );
     for scene in &conversion.scenes {
         let (mut sources, main) = source(&scene.snell).unwrap_or_else(|| panic!("the scene is far too long"));
         let mut problems = Problems::default();
