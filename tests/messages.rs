@@ -140,7 +140,7 @@ fn json_has_an_object_a_line_with_its_place_and_code() {
         .collect();
     let broken = "tests/diagnostics/syntax/parts/broken.snell";
     let expected =
-        [("snell::resolve::not_finite", scenes[0], 5, 65), ("snell::syntax::missing_operand", broken, 3, 12)];
+        [("snell::resolve::not_finite", scenes[0], 5, 58), ("snell::syntax::missing_operand", broken, 3, 12)];
     assert_eq!(said, expected);
 }
 
@@ -168,7 +168,7 @@ fn explain_finds_pages_and_says_what_is_near() {
     assert!(page.starts_with("snell::resolve::unknown_name (error)\n\nNothing that can be seen"), "{page}");
     assert!(said(&["union"]).1.starts_with("snell::resolve::no_csg (error)"));
     assert!(said(&["out_of_range"]).1.starts_with("2 codes end in `out_of_range`:\n\nsnell::check::"));
-    assert!(said(&["plan"]).1.starts_with("snell::plan\n  endless_photons\n"));
+    assert!(said(&["plan"]).1.starts_with("snell::plan\n  classic_only\n"));
     let (code, page, near) = said(&["unkown_name"]);
     assert_eq!((code, page.as_str()), (Some(2), ""));
     assert!(near.contains("did you mean `unknown_name`"), "{near}");

@@ -75,7 +75,5 @@ fn list(pages: impl Iterator<Item = &'static Page>, look: &Look) -> String {
 
 /// How pages look where standard output goes.
 fn look(color: Color) -> Look {
-    let terminal = stdout().is_terminal();
-    let width = session::result_width();
-    Look { color: session::paints(color, terminal), width }
+    Look { color: session::paints(color, stdout().is_terminal()), width: session::result_width() }
 }

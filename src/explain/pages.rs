@@ -26,9 +26,12 @@ const PAGES: &[Page] = pages! {
         unknown_code: Error,
     }
     check {
+        camera_in_glass: Warning,
         camera_looks_nowhere: Error,
         camera_sealed: Warning,
+        caustics_by_luck: Warning,
         caustics_invisible: Warning,
+        coincident_glass: Warning,
         creates_energy: Error,
         crossing_outline: Warning,
         curve_points: Error,
@@ -38,8 +41,15 @@ const PAGES: &[Page] = pages! {
         film_size: Error,
         focus_behind: Error,
         focus_not_once: Error,
+        focus_too_near: Error,
+        glass_overlap: Warning,
+        hole_outside: Error,
         inside_out_box: Error,
+        inside_out_glass: Warning,
         ior_below_one: Error,
+        light_against_wall: Warning,
+        light_faces_away: Warning,
+        light_hidden: Warning,
         light_sealed: Warning,
         loose_error: Warning,
         negative_light: Error,
@@ -47,12 +57,18 @@ const PAGES: &[Page] = pages! {
         no_camera: Error,
         no_light: Warning,
         not_positive: Error,
+        nothing_in_view: Warning,
+        object_hidden: Warning,
+        open_glass: Warning,
         out_of_range: Error,
         phong_energy: Warning,
+        short_paths: Warning,
         singular_transform: Error,
+        squeezing_transform: Warning,
         too_deep_mix: Error,
         too_large: Error,
         too_many_parts: Error,
+        too_small_to_see: Warning,
         unknown_camera: Error,
         up_along_view: Error,
     }
@@ -69,7 +85,9 @@ const PAGES: &[Page] = pages! {
         bad_focus: Error,
     }
     plan {
+        classic_only: Error,
         endless_photons: Warning,
+        photons_without_receiver: Warning,
     }
     resolve {
         argument_count: Error,
