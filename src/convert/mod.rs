@@ -8,6 +8,7 @@
 mod asset;
 mod dialect;
 mod fields;
+mod gravity;
 mod log;
 mod mistake;
 mod model;

@@ -1,6 +1,7 @@
 //! The mistakes of a conversion, gathered.
 
-use super::mistake::{Gravity, Mistake};
+use super::gravity::Gravity;
+use super::mistake::Mistake;
 use miette::{Diagnostic, Severity};
 use rustc_hash::FxHashMap;
 use std::fmt;

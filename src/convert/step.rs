@@ -11,7 +11,7 @@ pub fn flatten(steps: &[Step]) -> bool {
     let turned = |way: DVec3| steps.iter().fold(way, |way, step| step.apply_to_direction(way));
     let [x, y, z] = DVec3::AXES.map(turned);
     let volume = DMat3::from_cols(x, y, z).determinant().abs();
-    !(volume > VANISHING * x.length() * y.length() * z.length())
+    volume <= VANISHING * x.length() * y.length() * z.length()
 }
 
 impl Step {

@@ -205,7 +205,7 @@ impl Reader<'_> {
         let focus = (field.vector() - center).dot(direction.normalize());
         let note = "the original's has a radius of 0.3, whatever the scene".into();
         let is_ahead = self.check_distance(focus, &field.span);
-        is_ahead.then(|| Lens { radius: POINT_LENS_RADIUS, focus, note })
+        is_ahead.then_some(Lens { radius: POINT_LENS_RADIUS, focus, note })
     }
 
     fn lens_by_rule(&mut self, camera: &str, fields: &mut Fields<'_>, center: DVec3) -> Option<Lens> {

@@ -148,7 +148,7 @@ impl Reader<'_> {
     fn shape(&mut self, block: Block<'_>, kind: blocks::Object) -> Option<Object> {
         let name = block.name().to_string();
         let mut fields = self.log.fields(block, &SHAPE);
-        let own_material = fields.take_block(|name| is_material(name));
+        let own_material = fields.take_block(is_material);
         let head = fields.head.clone();
         let mut object = match kind {
             blocks::Object::Mesh => self.mesh(&mut fields),
@@ -280,6 +280,7 @@ fn is_inline_material(block: &Block<'_>) -> bool {
     block.name().contains("Material") && is_material(block.name())
 }
 
-fn holds_objects(block: &Block<'_>) -> bool {
+/// Whether a block has objects in it that belong to the format.
+pub(super) fn holds_objects(block: &Block<'_>) -> bool {
     block.blocks().any(|inner| blocks::is_usual_object(inner.name()))
 }

@@ -1,5 +1,6 @@
 //! The top level of a file: which scenes it holds, and which block is what.
 
+use super::object::holds_objects;
 use super::{Mistake, Reader};
 use crate::convert::dialect;
 use crate::convert::fields::{Field, Part};
@@ -147,6 +148,9 @@ impl Reader<'_> {
 
     fn top_block<'t>(&mut self, top: &mut Top<'t>, block: Block<'t>) {
         let Some(kind) = blocks::top(block.name()) else {
+            if holds_objects(&block) {
+                return self.loose_object(top, block);
+            }
             let usual = ["PerspectiveCamera", "Background", "Lights", "Materials", "Group"];
             return self.log.unknown_block(&block, "at the top level".into(), &usual);
         };

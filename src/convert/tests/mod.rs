@@ -101,8 +101,7 @@ fn collect_tokens(block: &Block<'_>, tokens: &mut Vec<Span>) {
     }
 }
 
-/// What is written is a scene: the compiler may doubt it, but finds nothing wrong, and it is laid out as `snell fmt` does.
-/// What the compiler doubts comes back.
+/// What is written is a scene: the compiler finds nothing wrong. What it doubts comes back.
 fn assert_compiles(snell: &str, name: &str) -> Vec<String> {
     let mut sources = SourceMap::default();
     let main = sources.add("scene.snell".into(), "scene.snell".into(), snell.into()).expect("a short text");
@@ -115,10 +114,7 @@ fn assert_compiles(snell: &str, name: &str) -> Vec<String> {
     };
     let faults = of(crate::diag::Severity::Error);
     assert!(faults.is_empty(), "{name}\n{snell}\n{}", faults.join("\n"));
-    let doubts = of(crate::diag::Severity::Warning);
-    let formatted = crate::format::format(&sources, main, &mut problems).expect("a scene that compiles");
-    assert_eq!(snell, formatted, "{name} is not laid out as `snell fmt` would");
-    doubts
+    of(crate::diag::Severity::Warning)
 }
 
 fn project(path: &str) -> PathBuf {

@@ -110,7 +110,7 @@ pub fn material(name: &str) -> Option<Material> {
             "phong gloss plastic cook ward ggx microfacet uber principled disney blinn brdf bsdf pbr",
             Material::Glossy,
         ),
-        ("metal conductor", Material::Metal),
+        ("metal conductor chrome steel gold silver copper", Material::Metal),
         ("lambert diffus matte", Material::Diffuse),
         ("material", Material::Plain),
     ];

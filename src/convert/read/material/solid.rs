@@ -59,8 +59,9 @@ impl Reader<'_> {
         self.log.mapped(&field.span, "one of the two materials");
         let (index, count) = (field.number(0).trunc() as i64, self.materials.len());
         let valid = usize::try_from(index).ok().filter(|index| *index < count && field.sound);
-        // Blends of blends would nest without bound.
-        let valid = valid.filter(|&index| !matches!(self.materials[index].look, Look::Solid { .. }));
+        // Blends of blends would nest without bound, and a plane could not be partly a lamp.
+        let is_plain = |look: &Look| !matches!(look, Look::Solid { .. } | Look::Emissive { .. });
+        let valid = valid.filter(|&index| is_plain(&self.materials[index].look));
         if valid.is_none() {
             self.log.dropped(&field.span, "no plain material further up");
             let at = field.span.clone().into();

@@ -91,7 +91,7 @@ impl Reader<'_> {
             }
             None => DVec3::splat(0.04), // of plastic
         };
-        let specular = weights[1].map_or(specular, |share| DVec3::splat(share));
+        let specular = weights[1].map_or(specular, DVec3::splat);
         let shininess = self.log.number(fields, "shininess", "`shininess`");
         let roughness = self.roughness(fields);
         let exponent = shininess.unwrap_or_else(|| exponent_of(roughness.max(0.1))).clamp(0.0, 1e5);
