@@ -8,7 +8,8 @@ use std::fmt::Write;
 /// The definitions of a scene, kind by kind, with the comments above them.
 pub fn offers(offers: &[Offer], sources: &SourceMap, width: usize) -> String {
     let mut out = String::new();
-    let sections: [(&str, fn(&Offered) -> bool); 5] = [
+    type IsOfKind = fn(&Offered) -> bool;
+    let sections: [(&str, IsOfKind); 5] = [
         ("parameters, for `--set NAME=VALUE`", |what| matches!(what, Offered::Param { .. })),
         ("cameras, for `--camera NAME`", |what| matches!(what, Offered::Camera)),
         ("functions", |what| matches!(what, Offered::Function(_))),

@@ -110,10 +110,12 @@ impl Node {
     }
 
     fn words(&self) -> Vec<&str> {
-        let word = |item| match item {
-            &Item::Word(ref word) => Some(word.as_str()),
-            Item::Block(_) => None,
-        };
+        fn word(item: &Item) -> Option<&str> {
+            match item {
+                Item::Word(word) => Some(word.as_str()),
+                Item::Block(_) => None,
+            }
+        }
         self.items.iter().filter_map(word).collect()
     }
 
@@ -173,7 +175,7 @@ fn scene(file: &Node, path: &Path) -> Option<Scene> {
     let right = across.normalize();
     let mut shapes = Vec::new();
     let groups = file.blocks().filter(|block| block.name == "Group");
-    for group in groups.last() {
+    if let Some(group) = groups.last() {
         walk(group, DAffine3::IDENTITY, path, &mut shapes);
     }
     for lights in file.blocks().filter(|block| block.name == "Lights") {
