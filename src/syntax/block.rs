@@ -33,6 +33,8 @@ enum Last {
     Word,
     /// A mistake: what follows on its line is likely part of it.
     Mistake,
+    /// A comment in the sign of another language: what follows on its line belongs to it.
+    Comment,
 }
 
 impl Lower<'_> {
@@ -66,6 +68,13 @@ impl Lower<'_> {
     /// `,` or `;` between entries.
     fn entry_comma(&mut self, pair: &Pair<'_, Rule>, sequence: &mut Sequence) {
         let at = self.text.span_of(pair);
+        if sequence.last == Last::Comment && !self.text.begins_line(pair.as_span().start()) {
+            return;
+        }
+        if self.begins_comment(pair.as_span().start()) {
+            self.foreign_comment(pair.as_span().start(), sequence);
+            return;
+        }
         if pair.as_str() == ";" {
             self.semicolons.push(at);
         } else if sequence.last == Last::Separated {
@@ -83,6 +92,9 @@ impl Lower<'_> {
         }
         if follows_on_line && self.is_part_of_mistake(rule, sequence) {
             return;
+        }
+        if self.begins_comment(start) {
+            return self.foreign_comment(start, sequence);
         }
         if follows_on_line && rule == Rule::expr && self.continues_value(&pair, sequence) {
             return;
@@ -120,9 +132,30 @@ impl Lower<'_> {
 
     /// What cannot be read after a mistake on its line is part of it.
     fn is_part_of_mistake(&self, rule: Rule, sequence: &mut Sequence) -> bool {
-        let part = sequence.last == Last::Mistake && matches!(rule, Rule::stray | Rule::expr);
+        let part = sequence.last == Last::Comment
+            || sequence.last == Last::Mistake && matches!(rule, Rule::stray | Rule::expr);
         sequence.poisoned |= part;
         part
+    }
+
+    /// Whether a comment as other languages write it begins here: `# ..` anywhere, `-- ..` and `; ..` on a line of its own.
+    fn begins_comment(&self, start: usize) -> bool {
+        let rest = &self.text.text[start..];
+        let is_alone = || self.text.begins_line(start);
+        let goes_on = |sign: &str| {
+            rest.strip_prefix(sign).is_some_and(|rest| !rest.trim_start_matches(' ').starts_with('\n'))
+        };
+        goes_on("# ") || (goes_on("-- ") || goes_on("; ")) && is_alone()
+    }
+
+    fn foreign_comment(&mut self, start: usize, sequence: &mut Sequence) {
+        let sign = match self.text.text.as_bytes()[start] {
+            b'#' => "#",
+            b';' => ";",
+            _ => "--",
+        };
+        self.foreign_comments.push((sign, self.text.span(start, start + sign.len())));
+        sequence.last = Last::Comment;
     }
 
     /// Reports what stands after the value of a field or definition on its line and is part of it: the second half of

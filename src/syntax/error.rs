@@ -143,6 +143,15 @@ pub enum SyntaxError {
         at: Span,
     },
 
+    #[error("`{sign}` begins no comment in this language{others}")]
+    #[diagnostic(code(snell::syntax::foreign_comment), help("begin it with `//`"))]
+    ForeignComment {
+        sign: &'static str,
+        others: String,
+        #[label("write `//`")]
+        at: Span,
+    },
+
     #[error("a line that begins with `{sign}` could continue the line before or be a value of its own")]
     #[diagnostic(
         code(snell::syntax::sign_at_line_start),

@@ -54,14 +54,11 @@ impl<'a> Lower<'a> {
 
     /// The mistakes of the whole text: those of its brackets and quotes, and those that do not follow from them.
     pub(super) fn finish(mut self, mut errors: Vec<SyntaxError>, guesses: &[Range<u32>]) -> Vec<SyntaxError> {
-        if let [first, rest @ ..] = self.semicolons.as_slice() {
-            let others = match rest.len() {
-                0 => String::new(),
-                1 => " (nor does the other one in this file)".to_owned(),
-                count => format!(" (nor do the {count} others in this file)"),
-            };
-            let at = *first;
-            self.note(SyntaxError::Semicolon { others, at });
+        if let &[at, ref rest @ ..] = self.semicolons.as_slice() {
+            self.note(SyntaxError::Semicolon { others: others(rest.len()), at });
+        }
+        if let &[(sign, at), ref rest @ ..] = self.foreign_comments.as_slice() {
+            self.note(SyntaxError::ForeignComment { sign, others: others(rest.len()), at });
         }
         // At most one open quote stands on a line, so the lines are in order and apart.
         let follows = |error: &SyntaxError| {
@@ -106,5 +103,14 @@ impl<'a> Lower<'a> {
             InputLocation::Pos(offset) | InputLocation::Span((offset, _)) => offset,
         };
         self.note(SyntaxError::TooDeep { limit: MAX_DEPTH, at: self.text.first_char(offset) });
+    }
+}
+
+/// What to say of a habit that was reported where it is met first.
+fn others(count: usize) -> String {
+    match count {
+        0 => String::new(),
+        1 => " (nor does the other one in this file)".to_owned(),
+        _ => format!(" (nor do the {count} others in this file)"),
     }
 }

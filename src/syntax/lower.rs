@@ -35,6 +35,8 @@ pub(super) struct Lower<'a> {
     pub allows: Vec<(Name, Span)>,
     /// The semicolons met so far: a habit is reported once.
     pub semicolons: Vec<Span>,
+    /// The comments in the signs of other languages: another habit.
+    pub foreign_comments: Vec<(&'static str, Span)>,
     /// The words of the language that items took as names: each is reported there, and not where it is used.
     pub bound_words: Vec<Name>,
     depth: usize,
@@ -49,6 +51,7 @@ impl<'a> Lower<'a> {
             load,
             allows: Vec::new(),
             semicolons: Vec::new(),
+            foreign_comments: Vec::new(),
             bound_words: Vec::new(),
             depth: 0,
         }

@@ -11,11 +11,6 @@ impl Lower<'_> {
     pub(super) fn stray(&mut self, pair: &Pair<'_, Rule>) {
         match pair.as_rule() {
             Rule::version => self.note(SyntaxError::MisplacedVersion { at: self.text.trimmed_span_of(pair) }),
-            Rule::directive if pair.as_str().starts_with("# ") => {
-                let at = self.text.first_char(pair.as_span().start());
-                let hint = "a comment begins with `//`".to_owned();
-                self.note(SyntaxError::WrongSign { written: "#".to_owned(), wanted: "//", hint, at });
-            }
             Rule::directive => {
                 self.foreign("POV-Ray's language", foreign::directive_hint(pair.as_str()), pair)
             }
