@@ -2,7 +2,7 @@
 //! it over the texts that were found.
 
 use snell::convert::{Options, convert as convert_text};
-use snell::diag::{Problems, Style};
+use snell::diag::{Problem, Problems, Severity, Style};
 use snell::format::format;
 use snell::source::{FileId, Memory, SourceMap};
 use snell::syntax::{self, ast::Program};
@@ -61,14 +61,21 @@ pub fn convert(text: &str) {
         !conversion.scenes.is_empty() || conversion.has_errors(),
         "nothing came out, and nothing is wrong"
     );
-    for scene in &conversion.scenes {
-        let (mut sources, main) = source(&scene.snell).unwrap_or_else(|| panic!("the scene is far too long"));
-        let mut problems = Problems::default();
-        syntax::parse(&mut sources, &Memory::default(), main, &mut problems);
-        if problems.has_errors() {
-            panic!("{}\n{}", problems.into_report(&sources).render_short(), scene.snell);
-        }
-    }
+    conversion.scenes.iter().for_each(|scene| makes_sense(&scene.snell));
+}
+
+/// Panics if the words of a scene that was written by a program make no sense. What it says may still be bad physics.
+fn makes_sense(scene: &str) {
+    let (mut sources, main) = source(scene).unwrap_or_else(|| panic!("the scene is far too long"));
+    let mut problems = Problems::default();
+    snell::compile(&mut sources, &Memory::default(), main, &[], &mut problems);
+    let is_of_words = |problem: &&Problem| {
+        let code = problem.code();
+        problem.severity() == Severity::Error && !code.starts_with("snell::check::")
+    };
+    let nonsense: Vec<String> =
+        problems.list().iter().filter(is_of_words).map(|p| p.error.to_string()).collect();
+    assert!(nonsense.is_empty(), "{nonsense:?}\n{scene}");
 }
 
 /// What scenes may include, import or load.

@@ -262,13 +262,15 @@ pub enum CheckError {
         #[label("this")]
         wall: Span,
     },
-    #[error("no camera sees anything of this object: it is {place} {noun}")]
+    #[error("no camera sees anything of this object{others}: it is {place} {noun}")]
     #[diagnostic(
         code(snell::check::object_hidden),
         severity(warning),
         help("move it to where the cameras see it, or take it away; look for a sign or a unit that slipped")
     )]
     ObjectHidden {
+        /// Of how many more.
+        others: String,
         place: &'static str,
         noun: &'static str,
         #[label("all of it is {place}")]

@@ -97,10 +97,7 @@ impl Survey<'_> {
         }
         let lamps = self.lamps.iter().zip(hidden_lamps).map(|(lamp, hidden)| (lamp.span, hidden));
         let lamps = all_of_them(lamps).into_iter().map(|(light, hidden)| hidden.light(light));
-        let things = self.hidden_things(&sides);
-        let things =
-            all_of_them(things.into_iter()).into_iter().map(|(object, hidden)| hidden.object(object));
-        lamps.chain(things).collect()
+        lamps.chain(by_wall(all_of_them(self.hidden_things(&sides).into_iter()))).collect()
     }
 
     /// Whether every camera is inside of a wall, or every one outside; `None` without any.
@@ -238,15 +235,32 @@ impl Hidden<'_> {
         }
     }
 
-    fn object(&self, object: Span) -> CheckError {
+    fn objects(&self, objects: &[Span]) -> CheckError {
         let (place, noun) = self.wall.place_of_hidden(self.camera_inside);
-        CheckError::ObjectHidden { place, noun, object, wall: self.wall.span }
+        let others = match objects.len() - 1 {
+            0 => String::new(),
+            1 => ", nor of one more".to_owned(),
+            more => format!(", nor of {more} more"),
+        };
+        CheckError::ObjectHidden { others, place, noun, object: objects[0], wall: self.wall.span }
     }
 }
 
 /// The first wall between a place and the cameras.
 fn hider<'w>(sides: &[Hidden<'w>], reach: &Reach) -> Option<Hidden<'w>> {
     sides.iter().find(|side| side.wall.holds(reach) == Some(!side.camera_inside)).copied()
+}
+
+/// One report for all that one wall hides: it is the wall that may be in the wrong place.
+fn by_wall(hidden: Vec<(Span, Hidden<'_>)>) -> Vec<CheckError> {
+    let mut walls: Vec<(Hidden, Vec<Span>)> = Vec::new();
+    for (object, by) in hidden {
+        match walls.iter_mut().find(|(known, _)| std::ptr::eq(known.wall, by.wall)) {
+            Some((_, objects)) => objects.push(object),
+            None => walls.push((by, vec![object])),
+        }
+    }
+    walls.iter().map(|(by, objects)| by.objects(objects)).collect()
 }
 
 fn solid_wall((index, thing): (usize, &Thing<'_>)) -> Option<Wall> {
