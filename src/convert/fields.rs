@@ -207,6 +207,17 @@ impl Log {
         }
     }
 
+    /// What nobody took of a block that is lost: one mistake is enough.
+    pub fn finish_lost(&mut self, fields: Fields<'_>, why: &str) {
+        for field in fields.list {
+            self.dropped(&field.span, why);
+        }
+        for block in fields.blocks {
+            self.drop_all(&block.span, why);
+        }
+        self.lose(&fields.span, why);
+    }
+
     /// Drops a field with a warning. A field with a role is known to the family, but not in this place.
     pub fn unknown_field(&mut self, field: &Field<'_>, block: &str, vocabulary: &'static Vocabulary) {
         if !field.sound {

@@ -18,7 +18,7 @@ const FAR_AWAY: f64 = 1000.0;
 
 impl Reader<'_> {
     pub(super) fn camera(&mut self, block: Block<'_>) -> Option<Camera> {
-        let (name, head, span) = (block.name().to_string(), block.head.clone(), block.span.clone());
+        let (name, head) = (block.name().to_string(), block.head.clone());
         let mut fields = self.log.fields(block, &CAMERA);
         self.log.mapped(&head, "`camera`");
         let camera = self.camera_of(&name, &mut fields);
@@ -29,9 +29,9 @@ impl Reader<'_> {
             &["time"],
             "times of a shutter, which is not in the scene language yet",
         );
-        self.log.finish(fields);
-        if camera.is_none() {
-            self.log.lose(&span, "lost with its camera");
+        match camera {
+            Some(_) => self.log.finish(fields),
+            None => self.log.finish_lost(fields, "lost with its camera"),
         }
         camera
     }

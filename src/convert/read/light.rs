@@ -115,15 +115,14 @@ impl Reader<'_> {
     }
 
     pub(super) fn light(&mut self, block: Block<'_>) -> Option<Light> {
-        let span = block.span.clone();
         let name = block.name().to_string();
         let mut fields = self.log.fields(block, &LIGHT);
         let light = self.light_of(&name, &mut fields);
         let aside = "a setting of the original's renderer, not of the scene";
         self.log.put_aside(&mut fields, &["setting"], aside);
-        self.log.finish(fields);
-        if light.is_none() {
-            self.log.lose(&span, "left out with its light");
+        match light {
+            Some(_) => self.log.finish(fields),
+            None => self.log.finish_lost(fields, "left out with its light"),
         }
         light
     }
@@ -192,7 +191,7 @@ impl Reader<'_> {
     /// A point; `color` is what the original adds at every distance, but for the law of its edition.
     fn point_light(&mut self, name: &str, fields: &mut Fields<'_>, color: DVec3) -> Option<Light> {
         self.log.mapped(&fields.head, "`light point`");
-        let is_usual = name == "PointLight" || !LIGHT_NAMES.contains(&name);
+        let is_usual = LIGHT_NAMES.contains(&name);
         let position = self.log.need(fields, "position");
         let falloff = self.falloff(fields);
         if let Some(radius) = self.log.take(fields, "radius") {
@@ -362,7 +361,7 @@ impl Reader<'_> {
 }
 
 /// Names of lights that need no word where they are taken as points.
-const LIGHT_NAMES: &[&str] = &["Light", "SpotLight", "AreaLight", "SphereLight", "CircleLight"];
+const LIGHT_NAMES: &[&str] = &["PointLight", "Light", "SpotLight"];
 
 /// Whether a block among the objects is a light.
 pub(super) fn is_light(name: &str) -> bool {

@@ -163,14 +163,14 @@ impl Reader<'_> {
         self.log.put_aside(&mut fields, &["speed-up"], why);
         let frame = "a frame of the picture, which is laid on by uv coordinates";
         self.log.put_aside(&mut fields, &["picture frame"], frame);
-        self.log.finish(fields);
-
         let Some(mut object) = object else {
             if let Some(block) = own_material {
                 self.log.dropped(&block.span, "left out with its object");
             }
+            self.log.finish_lost(fields, "left out with its object");
             return None;
         };
+        self.log.finish(fields);
         object.material = match (own_material, index) {
             (Some(block), _) => {
                 let in_force = self.material_index;

@@ -3,7 +3,6 @@
 mod files;
 mod meaning;
 mod mutation;
-mod pages;
 mod rows;
 mod syntax;
 
