@@ -6,6 +6,7 @@ mod laws_geometry;
 mod laws_photon;
 mod layers;
 mod meaning;
+mod mutation;
 mod readme;
 mod robust;
 mod robust_syntax;
