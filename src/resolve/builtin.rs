@@ -148,6 +148,16 @@ pub fn find(name: &str) -> Option<&'static Builtin> {
     BUILTINS.iter().find(|builtin| builtin.name == name)
 }
 
+impl Builtin {
+    /// What an argument is, where that is known before its value is.
+    pub(super) fn type_of_argument(&self, index: usize) -> Option<Type> {
+        match self.takes {
+            Takes::These(types, _) => types.get(index).copied(),
+            Takes::Between(..) => (self.name == "translate").then_some(Type::Length),
+        }
+    }
+}
+
 /// The names of all functions.
 pub fn names() -> impl Iterator<Item = &'static str> + Clone {
     BUILTINS.iter().map(|builtin| builtin.name)

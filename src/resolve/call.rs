@@ -1,6 +1,8 @@
 //! Calls of functions: those of the language and those of the scene.
 
+use super::builtin::Builtin;
 use super::error::Error;
+use super::meant::Wanted;
 use super::scope::Scope;
 use super::value::Function;
 use super::{Env, Resolver, Step, Value};
@@ -19,15 +21,20 @@ impl<'a> Resolver<'a> {
         {
             return curve;
         }
-        match self.eval(callee, env) {
+        let function = match &callee.kind {
+            ExprKind::Name(name) => self.name(name, callee.span, Wanted::Function, env),
+            _ => self.eval(callee, env),
+        };
+        match function {
             Value::Builtin(builtin) => {
-                let values = self.positional(builtin.name, builtin.usage, args, env);
+                let values = self.positional(builtin, args, env);
                 values.map_or(Value::Poison, |values| self.call_builtin(builtin, values, used))
             }
             Value::Function(function) => self.call_function(&function, args, used, env),
             Value::Poison => {
-                // The arguments may hold mistakes of their own.
-                for arg in args {
+                // The arguments may hold mistakes of their own; a word after a colon may be one that the function knows.
+                let is_word = |arg: &&Arg| arg.name.is_some() && matches!(arg.value.kind, ExprKind::Name(_));
+                for arg in args.iter().filter(|arg| !is_word(arg)) {
                     self.eval(&arg.value, env);
                 }
                 Value::Poison
@@ -40,17 +47,23 @@ impl<'a> Resolver<'a> {
 
     fn positional(
         &mut self,
-        function: &str,
-        usage: &str,
+        builtin: &Builtin,
         args: &'a [Arg],
         env: &Env<'a>,
     ) -> Option<Vec<Spanned<Value<'a>>>> {
         if let Some(name) = args.iter().find_map(|arg| arg.name.as_ref()) {
-            let (function, help) = (function.to_owned(), format!("write `{usage}`"));
+            let (function, help) = (builtin.name.to_owned(), format!("write `{}`", builtin.usage));
             self.report(Error::UnknownArgument { function, name: name.value.clone(), used: name.span, help });
             return None;
         }
-        Some(args.iter().map(|arg| Spanned::new(self.eval(&arg.value, env), arg.value.span)).collect())
+        let mut value = |index: usize, arg: &'a Arg| match &arg.value.kind {
+            ExprKind::Number { value, unit, .. } => {
+                self.numeral(*value, unit.as_ref(), builtin.type_of_argument(index))
+            }
+            _ => self.eval(&arg.value, env),
+        };
+        let values = args.iter().enumerate();
+        Some(values.map(|(index, arg)| Spanned::new(value(index, arg), arg.value.span)).collect())
     }
 
     fn call_function(

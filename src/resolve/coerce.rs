@@ -4,6 +4,7 @@ use super::builtin;
 use super::dimension::{Dimension, Quantity};
 use super::error::Error;
 use super::fields::EMPTY;
+use super::meant::Wanted;
 use super::{Env, Resolver, Value, color};
 use crate::diag::did_you_mean;
 use crate::ir;
@@ -22,6 +23,10 @@ impl<'a> Resolver<'a> {
             (_, ExprKind::Name(name)) if env.find(name).is_none() => self.word_as(name, expr.span, ty, env),
             (Type::Choice(words), ExprKind::Name(name)) if words.contains(&name.as_str()) => {
                 find_word(words, name).map_or(Value::Poison, Value::Word)
+            }
+            (_, ExprKind::Number { value, unit: Some(unit), .. }) => {
+                let value = self.numeral(*value, Some(unit), Some(ty));
+                self.coerce(value, ty, expr.span)
             }
             (Type::Block(kind), ExprKind::Block(body)) => {
                 let block = schema::block(kind).expect("types name declared blocks");
@@ -58,13 +63,22 @@ impl<'a> Resolver<'a> {
             (Type::Projection, "uv") => Value::Projection(ir::Projection::Uv),
             (Type::Lens, "pinhole") => lens(self, "pinhole"),
             (Type::Lens, "thin") => lens(self, "thin"),
-            (Type::Material, _) => self.unknown_material(name, used, env),
+            (Type::Material, _) => match color::named(name) {
+                Some(color) => self.coerce(Value::Color(color), ty, used),
+                None => self.unknown_material(name, used, env),
+            },
             (Type::Filter | Type::Projection | Type::Lens, _) if builtin::find(name).is_none() => {
-                let help = format!("write for example `{}`", ty.example());
+                let words: &[&str] = match ty {
+                    Type::Filter => &["box", "tent", "gaussian"],
+                    Type::Projection => &["uv", "planar"],
+                    _ => &["pinhole", "thin"],
+                };
+                let help = did_you_mean(name, words.iter().copied())
+                    .unwrap_or_else(|| format!("write for example `{}`", ty.example()));
                 self.poison(Error::UnknownWord { word: name.to_owned(), wanted: ty.noun(), used, help })
             }
             _ => {
-                let value = self.name(name, used, env);
+                let value = self.name(name, used, Wanted::Value(ty), env);
                 self.coerce(value, ty, used)
             }
         }
@@ -79,24 +93,6 @@ impl<'a> Resolver<'a> {
         let help = did_you_mean(word, words.iter().copied())
             .unwrap_or_else(|| format!("write for example `{}`", words[0]));
         self.poison(Error::UnknownWord { word: word.to_owned(), wanted, used, help })
-    }
-
-    fn unknown_material(&mut self, name: &str, used: Span, env: &Env<'a>) -> Value<'a> {
-        if let Some(color) = color::named(name) {
-            return self.coerce(Value::Color(color), Type::Material, used);
-        }
-        let kinds =
-            schema::blocks().filter(|block| block.area == schema::Area::Material).map(|block| block.kind);
-        let visible = env.visible();
-        let names = visible.iter().map(|definition| definition.name);
-        let help = match schema::block(name) {
-            Some(_) => self.unknown_name_help(name, env),
-            None => self
-                .imported_name_help(name, &visible)
-                .or_else(|| self.propose(name, names.chain(kinds)))
-                .or_else(|| Some(format!("define it: `let {name} = diffuse {{ color: #ff8800 }}`"))),
-        };
-        self.poison(Error::UnknownMaterial { name: name.to_owned(), used, help })
     }
 
     /// `value` as `ty`: poisoned, or of that type. Bare numbers become lengths in the units of the file.

@@ -12,7 +12,7 @@ use crate::source::{Span, Spanned};
 use crate::syntax::ast::{Arg, Expr, ExprKind, Name};
 
 /// The words before a list of points.
-const CURVES: [&str; 4] = ["bezier", "bspline", "polyline", "polygon"];
+pub const CURVES: [&str; 4] = ["bezier", "bspline", "polyline", "polygon"];
 
 impl<'a> Resolver<'a> {
     /// The result of a constructor whose arguments have the right types already.

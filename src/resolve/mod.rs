@@ -16,6 +16,7 @@ mod expr;
 mod fields;
 mod item;
 mod lint;
+mod meant;
 mod node;
 mod noise;
 mod operator;
@@ -61,8 +62,10 @@ pub fn resolve(
     }
     // What seems unused may be used where the text could not be read.
     let readable = !problems.has_errors();
+    let doubtful = doubtful_lines(sources, problems);
     let unused = lint::lint(program, problems);
     let mut resolver = Resolver::new(program, sources, problems);
+    resolver.doubtful = doubtful;
     resolver.set_parameters(settings);
     resolver.run_file(FileIndex(0));
     resolver.evaluate_the_rest();
@@ -70,6 +73,16 @@ pub fn resolve(
         resolver.report_unused(unused);
     }
     resolver.scene
+}
+
+/// The lines of the mistakes that were found so far.
+fn doubtful_lines(sources: &SourceMap, problems: &Problems) -> Vec<Span> {
+    let line = |offset: usize| {
+        let file = sources.file(sources.find(offset as u32)?);
+        let lines = file.line_range(file.line_of(offset - file.base as usize));
+        Some(Span::new(file.base + lines.start as u32, file.base + lines.end as u32))
+    };
+    problems.list().iter().filter_map(|problem| line(problem.offset())).collect()
 }
 
 /// The scope in which an expression is evaluated.
@@ -101,6 +114,8 @@ struct Resolver<'a> {
     settings: Vec<(&'a str, &'a Setting)>,
     /// Names that a report proposed for others: they are meant, only misspelt.
     proposed: FxHashSet<String>,
+    /// The lines that could not be read as they are: a name that one of them holds may have been defined there.
+    doubtful: Vec<Span>,
     environment: Option<Span>,
     render: Option<Span>,
     budget: Budget,
@@ -146,6 +161,7 @@ impl<'a> Resolver<'a> {
             reported: FxHashSet::default(),
             settings: Vec::new(),
             proposed: FxHashSet::default(),
+            doubtful: Vec::new(),
             environment: None,
             render: None,
             budget: Budget::default(),

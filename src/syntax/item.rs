@@ -71,7 +71,7 @@ impl Lower<'_> {
     fn path(&mut self, parts: &mut Parts<'_>, hint: &str) -> Option<Name> {
         let pair = parts.next()?;
         if pair.as_rule() == Rule::string {
-            return (!self.is_guessed(&pair)).then(|| self.string(&pair));
+            return Some(self.string(&pair));
         }
         let at = self.text.after_token(pair.as_span().start());
         let what = "the name of a file between quotes".to_owned();

@@ -21,14 +21,17 @@ pub use table::Table;
 /// Which faults there are.
 pub const SEED: u64 = 1621;
 
-/// Makes `count` mutants, has them compiled, and counts what comes of their faults.
-pub fn run(count: usize) -> Table {
+/// How many faults a scene gets at most.
+pub const MOST_FAULTS: usize = 8;
+
+/// Makes `count` mutants with 1 to `most` faults, has them compiled, and counts what comes of their faults.
+pub fn run(count: usize, most: usize) -> Table {
     let scenes = corpus::scenes();
     let mut table = Table::new(&scenes);
     for number in 0..count {
         // A seed of its own for each: any of them can be looked at alone.
         let mut random = Random(SEED + ((number as u64) << 32));
-        let mutant = Mutant::new(&scenes, &mut random);
+        let mutant = Mutant::new(&scenes, most, &mut random);
         let texts = mutant.texts();
         let said = mutant.scene.say(&texts);
         let judgement = judge::judge(&mutant, &said);
@@ -39,6 +42,6 @@ pub fn run(count: usize) -> Table {
 
 #[test]
 fn most_mistakes_are_told_where_they_are_with_their_cure() {
-    let table = run(400);
+    let table = run(400, MOST_FAULTS);
     table.assert_good();
 }

@@ -5,8 +5,6 @@ use super::faults::{Fault, Kind, fault};
 use super::random::Random;
 use std::ops::Range;
 
-/// How many faults a scene gets at most.
-const MOST_FAULTS: usize = 8;
 /// How often a place for a fault is looked for before the scene counts as full.
 const TRIES: usize = 60;
 
@@ -19,11 +17,11 @@ pub struct Mutant<'a> {
 }
 
 impl<'a> Mutant<'a> {
-    /// A random scene of `scenes` with 1 to 8 faults.
-    pub fn new(scenes: &'a [Scene], random: &mut Random) -> Self {
+    /// A random scene of `scenes` with 1 to `most` faults.
+    pub fn new(scenes: &'a [Scene], most: usize, random: &mut Random) -> Self {
         let scene = &scenes[random.below(scenes.len())];
         let mut mutant = Self { scene, faults: Vec::new() };
-        let wanted = 1 + random.below(MOST_FAULTS);
+        let wanted = 1 + random.below(most);
         for _ in 0..TRIES {
             let (kind, _) = Kind::ALL[random.below(Kind::ALL.len())];
             let file = random.below(scene.files.len());

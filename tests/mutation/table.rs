@@ -66,12 +66,12 @@ impl Table {
                 Verdict { cured: Some(false), .. } => "not cured",
                 _ => continue,
             };
-            self.misses.push((fault.kind, what, format!("{number} {}", mutant.describe(fault))));
+            self.misses.push((fault.kind, what, format!("{number} {}{}", mutant.describe(fault), shown(mutant, said, fault.file))));
         }
         for &index in &judgement.spurious {
             let report = &said.reports[index];
             let kind = mutant.faults.first().map_or(Kind::Cycle, |fault| fault.kind);
-            self.misses.push((kind, "spurious", format!("{number} {}", report.message)));
+            self.misses.push((kind, "spurious", format!("{number} {}: {}", report.message, mutant.faults.iter().map(|f| mutant.describe(f)).collect::<Vec<_>>().join(" & "))));
         }
     }
 
@@ -147,4 +147,21 @@ fn line(out: &mut String, name: &str, row: &Row) {
         percent(row.cured, row.curable),
         share(row.echoes, row.faults),
     );
+}
+
+fn shown(mutant: &Mutant, said: &Said, file: usize) -> String {
+    let texts = mutant.texts();
+    let mut out = String::new();
+    for report in &said.reports {
+        for (i, label) in report.labels.iter().enumerate() {
+            if label.file > texts.len() { continue }
+            let text = &texts[label.file];
+            let line = text[..label.range.start].matches('\n').count();
+            let col = label.range.start - text[..label.range.start].rfind('\n').map_or(0, |e| e + 1);
+            let _ = if i == 0 { write!(out, "\n      {}:{}+{} {} | {}\n         {}", line + 1, col + 1, label.range.len(), report.message, report.help, text.lines().nth(line).unwrap_or("")) } else {
+              write!(out, "\n         (also {}:{})", line + 1, col + 1) };
+        }
+    }
+    let _ = file;
+    out
 }

@@ -10,7 +10,7 @@ mod texture;
 use super::error::Error;
 use super::fields::Fields;
 use super::{Env, Resolver, Value};
-use crate::diag::did_you_mean;
+use crate::diag::{did_you_mean, nearest};
 use crate::schema::{self, Area};
 use crate::source::Span;
 use crate::syntax::ast::{Block, Object};
@@ -106,7 +106,19 @@ impl<'a> Resolver<'a> {
             });
             Error::UnknownBlock { kind: kind.to_owned(), used, help }
         };
-        self.poison(error)
+        self.report(error);
+        self.misspelt_block(object, kind, env);
+        Value::Poison
+    }
+
+    /// Looks for mistakes in a block of a misspelt kind, as in one of the kind that it is nearest to.
+    fn misspelt_block(&mut self, object: &'a Object, kind: &str, env: &Env<'a>) {
+        let meant = nearest(kind, schema::blocks().map(|block| block.kind)).first().copied();
+        let Some(block) = meant.and_then(schema::block) else { return };
+        self.read(block, object.kind.span, &object.body, env);
+        if block.holds_items() {
+            self.members(&object.body, env);
+        }
     }
 
     /// The first of two fields that excludes the other; both is a mistake, reported here.
