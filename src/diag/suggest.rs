@@ -27,8 +27,13 @@ pub fn nearest_of_kind<'a>(
     candidates: impl IntoIterator<Item = (&'a str, bool)>,
 ) -> Vec<&'a str> {
     let lower = wanted.to_lowercase();
-    let limit = wanted.chars().count().div_ceil(3);
+    let length = wanted.chars().count();
+    let limit = length.div_ceil(3);
     let rank = |(name, is_wanted): (&'a str, bool)| {
+        // A hostile word may be as long as a file is.
+        if name.chars().count().abs_diff(length) > limit {
+            return None;
+        }
         let distance = strsim::osa_distance(&name.to_lowercase(), &lower);
         let cost = slip_cost(name, wanted);
         let is_near = distance <= limit && distance < name.chars().count() || cost <= SLIP;
@@ -43,6 +48,11 @@ pub fn nearest_of_kind<'a>(
         }
     }
     names
+}
+
+/// Whether one slip of the finger makes `written` of `meant`.
+pub fn is_slip_of(meant: &str, written: &str) -> bool {
+    meant.len().abs_diff(written.len()) <= 1 && slip_cost(meant, written) <= SLIP
 }
 
 /// What it costs to write `meant` as `written`, letter by letter.
@@ -145,7 +155,7 @@ mod tests {
     #[test]
     fn slips_of_the_finger_come_before_other_changes() {
         assert_eq!(nearest("cmm", ["mm", "cm"]), ["cm", "mm"], "doubled");
-        assert_eq!(nearest("planr", ["planar", "plane"]), ["plane", "planar"], "the key beside");
+        assert_eq!(nearest("colot", ["colon", "color"]), ["color", "colon"], "the key beside");
         assert_eq!(nearest("o", ["i", "n"]), ["i"], "one letter, the key beside");
         assert_eq!(nearest("ii", ["i", "n"]), ["i"], "one letter, doubled");
     }

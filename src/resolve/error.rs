@@ -187,7 +187,7 @@ pub enum Error {
         help: String,
     },
     #[error("there is a second `{kind}`")]
-    #[diagnostic(code(snell::resolve::second_block), help("take one of them away"))]
+    #[diagnostic(code(snell::resolve::second_block), help("keep one of them"))]
     SecondBlock {
         kind: &'static str,
         #[label("the second")]

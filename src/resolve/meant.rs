@@ -51,12 +51,9 @@ impl<'a> Resolver<'a> {
     /// Whether the definition of a name was likely lost: to a line with a mistake of syntax, or, when nothing known is
     /// like it, with a file that is not there.
     fn is_lost(&self, name: &str, used: Span, has_like: bool) -> bool {
-        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        let holds = |line: &Span| {
-            let is_elsewhere = used.end < line.start || line.end < used.start;
-            is_elsewhere && self.sources.text(*line).split(|c| !is_part(c)).any(|word| word == name)
-        };
-        self.program.lacks_files && !has_like || self.doubtful.iter().any(holds)
+        let is_elsewhere = |line: &Span| used.end < line.start || line.end < used.start;
+        let lines = self.doubtful.get(name).map_or(&[][..], Vec::as_slice);
+        self.program.lacks_files && !has_like || lines.iter().any(is_elsewhere)
     }
 
     /// What to say of a name that nothing defines, unless nothing is like it.
@@ -156,13 +153,18 @@ fn known_words<'n>(wanted: Wanted) -> impl Iterator<Item = (&'n str, bool)> {
     };
     let is_function = wanted == Wanted::Function;
     let any = wanted == Wanted::Anything;
+    // What the language calls something else is not proposed where a value of a type is wanted.
     let functions = builtin::names()
         .chain(constructor::CURVES)
+        .filter(move |_| is_function || any)
         .map(move |name| -> (&'n str, bool) { (name, is_function) });
     let takes_color = ty.is_some_and(|ty| {
         matches!(ty, Type::Color | Type::LightColor | Type::Radiance | Type::ColorInput | Type::SkyInput)
     });
-    let colors = color::NAMED.iter().map(move |&(name, _)| -> (&'n str, bool) { (name, takes_color || any) });
+    let colors = color::NAMED
+        .iter()
+        .filter(move |_| takes_color || any)
+        .map(move |&(name, _)| -> (&'n str, bool) { (name, takes_color || any) });
     let kinds = schema::blocks()
         .filter(move |block| ty == Some(Type::Material) && block.area == schema::Area::Material);
     let words: &[&str] = match ty {

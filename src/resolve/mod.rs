@@ -34,8 +34,9 @@ use budget::Budget;
 use dimension::Quantity;
 pub use error::Error;
 use miette::Diagnostic;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use scope::{Definition, Kind, Scope, State};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 use value::Value;
 
@@ -62,7 +63,7 @@ pub fn resolve(
     }
     // What seems unused may be used where the text could not be read.
     let readable = !problems.has_errors();
-    let doubtful = doubtful_lines(sources, problems);
+    let doubtful = doubtful_words(sources, problems);
     let unused = lint::lint(program, problems);
     let mut resolver = Resolver::new(program, sources, problems);
     resolver.doubtful = doubtful;
@@ -75,14 +76,21 @@ pub fn resolve(
     resolver.scene
 }
 
-/// The lines of the mistakes that were found so far.
-fn doubtful_lines(sources: &SourceMap, problems: &Problems) -> Vec<Span> {
+/// The words of the lines with the mistakes that were found so far.
+fn doubtful_words<'a>(sources: &'a SourceMap, problems: &Problems) -> FxHashMap<&'a str, Vec<Span>> {
     let line = |offset: usize| {
-        let file = sources.file(sources.find(offset as u32)?);
+        let file = sources.file(sources.find(u32::try_from(offset).ok()?)?);
         let lines = file.line_range(file.line_of(offset - file.base as usize));
         Some(Span::new(file.base + lines.start as u32, file.base + lines.end as u32))
     };
-    problems.list().iter().filter_map(|problem| line(problem.offset())).collect()
+    let lines: BTreeSet<Span> = problems.list().iter().filter_map(|problem| line(problem.offset())).collect();
+    let mut words: FxHashMap<&str, Vec<Span>> = FxHashMap::default();
+    for line in lines {
+        for word in sources.text(line).split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')) {
+            words.entry(word).or_default().push(line);
+        }
+    }
+    words
 }
 
 /// The scope in which an expression is evaluated.
@@ -114,8 +122,8 @@ struct Resolver<'a> {
     settings: Vec<(&'a str, &'a Setting)>,
     /// Names that a report proposed for others: they are meant, only misspelt.
     proposed: FxHashSet<String>,
-    /// The lines that could not be read as they are: a name that one of them holds may have been defined there.
-    doubtful: Vec<Span>,
+    /// The words of lines that could not be read as they are: what they name may have been defined there.
+    doubtful: FxHashMap<&'a str, Vec<Span>>,
     environment: Option<Span>,
     render: Option<Span>,
     budget: Budget,
@@ -161,7 +169,7 @@ impl<'a> Resolver<'a> {
             reported: FxHashSet::default(),
             settings: Vec::new(),
             proposed: FxHashSet::default(),
-            doubtful: Vec::new(),
+            doubtful: FxHashMap::default(),
             environment: None,
             render: None,
             budget: Budget::default(),

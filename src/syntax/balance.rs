@@ -150,7 +150,7 @@ impl Search<'_> {
         }
         let sum = |edit: &Edit| edit.cost(tokens) + oddity(self.text, &edit.apply(tokens), &self.functions);
         // Of equals the last: what is missing is missed late.
-        edits.into_iter().rev().min_by_key(sum)
+        edits.into_iter().rev().filter(|edit| edit.pairs(tokens)).min_by_key(sum)
     }
 }
 
@@ -229,6 +229,17 @@ impl Edit {
         edited
     }
 
+    /// Whether what is put in finds a partner.
+    fn pairs(self, tokens: &[Token]) -> bool {
+        match self {
+            Self::Insert { before, within, .. } => {
+                partner(&self.apply(tokens), before + usize::from(within)).is_some()
+            }
+            Self::Replace(at, _) => partner(&self.apply(tokens), at).is_some(),
+            Self::Remove(_) => true,
+        }
+    }
+
     /// How unlikely the slip is that this mends: a key that was hit twice, or not at all between two names, comes first.
     fn cost(self, tokens: &[Token]) -> u32 {
         let is_glued = |first: usize, second: usize| match (tokens.get(first), tokens.get(second)) {
@@ -282,14 +293,18 @@ fn partner(tokens: &[Token], own: usize) -> Option<usize> {
         _ => 0,
     };
     let mut depth = 0;
-    let mut is_partner = |at: &usize| {
+    let mut is_level = |at: &usize| {
         depth += step(&tokens[*at]);
         depth == 0
     };
-    match tokens[own].kind {
-        Kind::Open(_) => (own..tokens.len()).find(|at| is_partner(at)),
-        _ => (0..=own).rev().find(|at| is_partner(at)),
-    }
+    let found = match tokens[own].kind {
+        Kind::Open(_) => (own..tokens.len()).find(|at| is_level(at)),
+        _ => (0..=own).rev().find(|at| is_level(at)),
+    };
+    found.filter(|&found| match (tokens[own.min(found)].kind, tokens[own.max(found)].kind) {
+        (Kind::Open(open), Kind::Close(close)) => closer(open) == close,
+        _ => false,
+    })
 }
 
 /// The bracket that opens what a closing one closes.

@@ -107,7 +107,7 @@ impl<'a> Loader<'a> {
     /// Goes on without a file.
     fn lack<T>(&mut self, request: &Request, error: SyntaxError) -> Option<T> {
         self.program.lacks_files |= !request.is_import;
-        self.refuse(error)
+        if request.is_guessed { None } else { self.refuse(error) }
     }
 
     fn refuse<T>(&mut self, error: SyntaxError) -> Option<T> {

@@ -123,6 +123,11 @@ impl Reader<'_> {
                 self.add(ODD, self.follows_value(at) && !after_word);
             }
             Kind::Sign(b',') => self.comma(at),
+            Kind::Sign(b':') => {
+                let after_name =
+                    at.checked_sub(1).is_some_and(|before| self.tokens[before].kind == Kind::Word);
+                self.add(WRONG, !after_name);
+            }
             Kind::Sign(_) => {}
         }
     }

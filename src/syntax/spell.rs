@@ -6,8 +6,11 @@
 
 use super::error::SyntaxError;
 use super::token::{Kind, Token};
-use crate::diag::nearest;
+use crate::diag::{is_slip_of, nearest};
 use crate::source::Span;
+
+/// How many tokens of a line are looked at before a word.
+const LONGEST_LOOK: usize = 64;
 
 /// A word or sign to be read as another.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -40,13 +43,15 @@ impl Words<'_> {
         if token.kind != Kind::Word || is_word_of_the_language(self.word(at)) {
             return None;
         }
-        let item = self.item_words(at);
-        let (candidates, begins_item) = match item.is_empty() {
-            false => (item, true),
-            true => (self.joining_words(at), false),
-        };
-        let word = nearest(self.word(at), candidates.iter().copied()).into_iter().next()?;
-        Some(Slip::Word { start: token.start, end: token.end, word, begins_item })
+        if self.is_prose(at) {
+            return None;
+        }
+        let item = nearest(self.word(at), self.item_words(at).iter().copied()).into_iter().next();
+        let word = item.or_else(|| {
+            let mut joining = self.joining_words(at).iter().copied();
+            joining.find(|word| is_slip_of(word, self.word(at)))
+        })?;
+        Some(Slip::Word { start: token.start, end: token.end, word, begins_item: item.is_some() })
     }
 
     fn word(&self, at: usize) -> &str {
@@ -74,10 +79,32 @@ impl Words<'_> {
         (after.line == token.line && after.start > token.end).then_some(after)
     }
 
+    /// The tokens before one on its line, the nearest first.
+    fn line_before(&self, at: usize) -> impl Iterator<Item = (usize, &Token)> {
+        let line = self.tokens[at].line;
+        let before = self.tokens[..at].iter().enumerate().rev().take(LONGEST_LOOK);
+        before.take_while(move |(_, token)| token.line == line)
+    }
+
+    /// Whether a colon is part of the code of a warning.
     fn is_path(&self, colon: usize) -> bool {
-        let line = self.tokens[colon].line;
-        let before = self.tokens[..colon].iter().rev().take_while(|token| token.line == line);
-        before.into_iter().any(|token| &self.text[token.range()] == b"allow")
+        self.line_before(colon).any(|(at, _)| self.word(at) == "allow")
+    }
+
+    /// Whether words follow each other around this one, as they do in a sentence, or its line begins with `#`.
+    fn is_prose(&self, at: usize) -> bool {
+        let is_plain = |at: Option<usize>| {
+            at.is_some_and(|at| !self.word(at).is_empty() && !is_word_of_the_language(self.word(at)))
+        };
+        let line = self.tokens[at].line;
+        let on_line =
+            |at: Option<usize>| at.filter(|&at| self.tokens.get(at).is_some_and(|token| token.line == line));
+        let (before, after) = (on_line(at.checked_sub(1)), on_line(Some(at + 1)));
+        let (second_before, second_after) = (on_line(at.checked_sub(2)), on_line(Some(at + 2)));
+        let is_directive = self.line_before(at).any(|(_, token)| token.is_first && token.is(b'#'));
+        is_directive
+            || is_plain(before) && (is_plain(second_before) || is_plain(after) && is_plain(second_after))
+            || is_plain(after) && is_plain(second_after) && is_plain(on_line(Some(at + 3)))
     }
 
     /// The words that begin an item which goes on as what follows the first word of an entry does.
@@ -122,7 +149,7 @@ impl Words<'_> {
             Some(Kind::Word) if after_block && next == "if" => &["else"],
             Some(Kind::Word | Kind::Open(b'(')) if after_block && !self.sign(at + 2, b':') => &["as", "at"],
             Some(_) if after_value && !after_block && self.begins_value_after(at) => self.infix_words(at),
-            Some(Kind::Word | Kind::Number | Kind::Open(b'(')) if self.wants_value(at) => {
+            Some(Kind::Word | Kind::Number | Kind::Open(b'(')) if self.wants_value(at) && !joins(next) => {
                 &["on", "not", "if"]
             }
             _ => &[],
@@ -148,14 +175,14 @@ impl Words<'_> {
 
     /// The words that may stand between two values, in the item that a word is part of.
     fn infix_words(&self, at: usize) -> &'static [&'static str] {
-        let line = self.tokens[at].line;
-        let before = self.tokens[..at].iter().enumerate().rev().take_while(|(_, token)| token.line == line);
-        for (index, token) in before {
+        if at > 0 && self.kind(at - 1) == Some(Kind::Text) {
+            return &["as"];
+        }
+        for (index, token) in self.line_before(at) {
             match (token.kind, self.word(index)) {
                 (Kind::Open(b'['), _) => return &["for", "if", "in", "then", "per", "or", "and"],
                 (Kind::Word, "for") => return &["in", "if", "and", "or"],
                 (Kind::Word, "param") => return &["in", "then", "per", "or", "and"],
-                (Kind::Word, "import") => return &["as"],
                 (Kind::Word, "place") => return &["as", "at", "then"],
                 _ => {}
             }
@@ -179,6 +206,11 @@ impl Slip {
             }
         }
     }
+}
+
+/// Whether a word stands between two values, so that it begins none.
+fn joins(word: &str) -> bool {
+    matches!(word, "and" | "as" | "at" | "else" | "in" | "or" | "per" | "then" | "x")
 }
 
 /// Whether a word means something by itself.
@@ -221,6 +253,8 @@ mod tests {
             "param n: int = 3 in 1..=5",
             "allow(snell::resolve::unused, \"why\")",
             "place ring(3) as circle at (0m, 1m, 0m) { transform: scale(2) }",
+            "# a comment of other languages",
+            "for (i in 0..3) { sphere { radius: 1m } }",
         ] {
             assert_eq!(meant(line), [] as [&str; 0], "{line}");
         }

@@ -75,7 +75,7 @@ fn cures(cure: &Cure, report: &Report) -> bool {
         Cure::Sign(sign) => {
             report.help.contains(&format!("`{sign}`")) || first.is_some_and(|first| first.contains(sign))
         }
-        Cure::Removal => ["remove", "take one"].iter().any(|word| report.help.contains(word)),
+        Cure::Removal => ["remove", "take one", "keep one"].iter().any(|word| report.help.contains(word)),
     }
 }
 
