@@ -4,7 +4,7 @@ use super::dimension::{Dimension, Quantity, UNITS};
 use super::error::Error;
 use super::scope::{Definition, Kind, State};
 use super::{Env, Resolver, Value, builtin, color, constructor};
-use crate::diag::{did_you_mean_one_of, nearest_of_kind};
+use crate::diag::{did_you_mean_one_of, is_slip_of, nearest_of_kind};
 use crate::schema::{self, Type};
 use crate::source::Span;
 use crate::syntax::ast::Name;
@@ -31,7 +31,7 @@ impl<'a> Resolver<'a> {
         env: &Env<'a>,
     ) -> Value<'a> {
         let help = self.unknown_name_help(name, wanted, env);
-        if self.is_lost(name, used, help.is_some()) {
+        if self.is_lost(name, used, help.as_deref()) {
             return Value::Poison;
         }
         let help = help.or_else(|| Some(format!("define it with `let {name} = ..`, or take it away")));
@@ -41,19 +41,21 @@ impl<'a> Resolver<'a> {
     /// The same where a material is wanted.
     pub(super) fn unknown_material(&mut self, name: &str, used: Span, env: &Env<'a>) -> Value<'a> {
         let help = self.unknown_name_help(name, Wanted::Value(Type::Material), env);
-        if self.is_lost(name, used, help.is_some()) {
+        if self.is_lost(name, used, help.as_deref()) {
             return Value::Poison;
         }
         let help = help.or_else(|| Some(format!("define it: `let {name} = diffuse {{ color: #ff8800 }}`")));
         self.poison(Error::UnknownMaterial { name: name.to_owned(), used, help })
     }
 
-    /// Whether the definition of a name was likely lost: to a line with a mistake of syntax, or, when nothing known is
-    /// like it, with a file that is not there.
-    fn is_lost(&self, name: &str, used: Span, has_like: bool) -> bool {
+    /// Whether the definition of a name was likely lost: to a line with a mistake of syntax, or with a file that is not
+    /// there, unless `help` proposes a name that is one slip away.
+    fn is_lost(&self, name: &str, used: Span, help: Option<&str>) -> bool {
         let is_elsewhere = |line: &Span| used.end < line.start || line.end < used.start;
         let lines = self.doubtful.get(name).map_or(&[][..], Vec::as_slice);
-        self.program.lacks_files && !has_like || lines.iter().any(is_elsewhere)
+        let proposed = help.and_then(|help| help.split('`').nth(1));
+        let is_slip = proposed.is_some_and(|proposed| is_slip_of(proposed, name));
+        self.program.lacks_files && !is_slip || lines.iter().any(is_elsewhere)
     }
 
     /// What to say of a name that nothing defines, unless nothing is like it.

@@ -167,9 +167,8 @@ fn edits(text: &[u8], tokens: &[Token], counted: &[Repair]) -> Vec<Edit> {
     }
     let mut edits = Vec::new();
     for &close in &unclosed {
-        let insert = |before| insert(tokens, before, Kind::Close(close));
-        edits.extend((1..=tokens.len()).map(insert));
         edits.extend(those(tokens, |token| closes(close, token)).map(Edit::Remove));
+        edits.extend((1..=tokens.len()).map(|before| insert(tokens, before, Kind::Close(close))));
         for &wrong in &unopened {
             edits.extend(
                 those(tokens, |token| token.kind == Kind::Close(wrong)).map(|at| Edit::Replace(at, close)),
@@ -178,9 +177,9 @@ fn edits(text: &[u8], tokens: &[Token], counted: &[Repair]) -> Vec<Edit> {
     }
     for &close in &unopened {
         let open = opener(close);
+        edits.extend(those(tokens, |token| token.kind == Kind::Close(close)).map(Edit::Remove));
         edits.extend((1..tokens.len()).map(|before| insert(tokens, before, Kind::Open(open))));
         edits.extend((0..tokens.len()).filter_map(|at| within(text, tokens, at, open)));
-        edits.extend(those(tokens, |token| token.kind == Kind::Close(close)).map(Edit::Remove));
     }
     edits
 }
@@ -240,7 +239,7 @@ impl Edit {
         }
     }
 
-    /// How unlikely the slip is that this mends: a key that was hit twice, or not at all between two names, comes first.
+    /// How unlikely the slip is that this mends: a key that was hit twice, or not at all behind a name, comes first.
     fn cost(self, tokens: &[Token]) -> u32 {
         let is_glued = |first: usize, second: usize| match (tokens.get(first), tokens.get(second)) {
             (Some(first), Some(second)) => first.end == second.start,

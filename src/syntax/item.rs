@@ -109,8 +109,12 @@ impl Lower<'_> {
         }
     }
 
-    /// `of_type = _{ ":" ~ (ident | missing_type) | missing_type }`
+    /// `of_type = _{ ":" ~ (ident | missing_type) | missing_colon ~ ident | missing_type }`
     fn of_type(&mut self, parts: &mut Parts<'_>, name: Option<&Name>, example: &str) -> Option<Name> {
+        if let Some(missing) = parts.take(Rule::missing_colon) {
+            let place = name.map_or("here".to_owned(), |name| format!("after `{}`", name.value));
+            self.missing_sign(":", &place, &format!("write it as in `{example}`"), &missing);
+        }
         let pair = parts.next()?;
         if pair.as_rule() == Rule::ident {
             return Some(self.word(&pair));

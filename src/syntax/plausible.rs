@@ -69,7 +69,9 @@ impl Reader<'_> {
     }
 
     fn is_keyword(&self, at: usize) -> bool {
-        is_keyword(self.word(at))
+        let in_size =
+            || self.word(at) == b"x" && self.before(at).is_some_and(|before| before.kind == Kind::Number);
+        is_keyword(self.word(at)) || in_size()
     }
 
     /// Whether a value ends just before a token, on its line.
@@ -128,6 +130,10 @@ impl Reader<'_> {
                     at.checked_sub(1).is_some_and(|before| self.tokens[before].kind == Kind::Word);
                 self.add(WRONG, !after_name);
             }
+            // `->` stands behind parameters.
+            Kind::Sign(b'-') if self.text.get(self.tokens[at].end) == Some(&b'>') => {
+                self.add(WRONG, !self.in_block());
+            }
             Kind::Sign(_) => {}
         }
     }
@@ -142,7 +148,9 @@ impl Reader<'_> {
         let weight = match (bracket, before.map(|before| before.kind)) {
             (b'{', None | Some(Kind::Text)) => ODD,
             (b'{', Some(Kind::Open(_))) => WRONG,
-            (b'{', Some(Kind::Close(b'}'))) => RARE,
+            (b'{', Some(Kind::Word)) if is_head_less(self.word(at - 1)) => ODD,
+            (b'{', Some(Kind::Number | Kind::Close(_))) if !self.in_block() => ODD,
+            (b'{', Some(Kind::Close(b'}'))) => ODD,
             (b'{', Some(Kind::Sign(sign))) if sign != b':' && sign != b'=' => ODD,
             (b'(', _) if is_apart => ODD - RARE,
             (b'(' | b'[', Some(Kind::Number | Kind::Text)) if self.before(at).is_some() => ODD,
@@ -208,13 +216,7 @@ impl Reader<'_> {
             matches!(before.kind, Kind::Open(b'{') | Kind::Close(b'}')) || before.is(b',')
         });
         let weight = match word {
-            b"else" => {
-                if at > 0 && self.tokens[at - 1].kind == Kind::Close(b'}') {
-                    0
-                } else {
-                    WRONG
-                }
-            }
+            b"else" if !self.follows_choice(at) => WRONG,
             b"as" | b"at" if !self.in_block() => ODD,
             b"as" | b"at" if in_field => ODD,
             b"then" if number_before => ODD,
@@ -245,6 +247,16 @@ impl Reader<'_> {
             _ => 0,
         };
         self.sum += weight;
+    }
+
+    /// Whether a block ends before an `else`: on its line, or as the only thing on a line.
+    fn follows_choice(&self, at: usize) -> bool {
+        let before = at.checked_sub(1).map(|before| self.tokens[before]);
+        before.is_some_and(|before| {
+            // What is put in stands on a line of its own, too.
+            let is_alone = before.is_first || before.start == before.end;
+            before.kind == Kind::Close(b'}') && (!self.tokens[at].is_first || is_alone)
+        })
     }
 
     fn name(&mut self, at: usize) {
@@ -303,6 +315,11 @@ impl Reader<'_> {
     }
 }
 
+/// Whether no block follows a word of the language.
+fn is_head_less(word: &[u8]) -> bool {
+    is_keyword(word) && word != b"else"
+}
+
 /// Whether `first` and `last` of a run are partners.
 fn is_pair(within: &[Token], first: &Token, last: &Token) -> bool {
     let (Kind::Open(_), Kind::Close(_)) = (first.kind, last.kind) else { return false };
@@ -339,6 +356,5 @@ fn is_keyword(word: &[u8]) -> bool {
             | b"per"
             | b"place"
             | b"then"
-            | b"x"
     )
 }

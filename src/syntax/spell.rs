@@ -48,8 +48,8 @@ impl Words<'_> {
         }
         let item = nearest(self.word(at), self.item_words(at).iter().copied()).into_iter().next();
         let word = item.or_else(|| {
-            let mut joining = self.joining_words(at).iter().copied();
-            joining.find(|word| is_slip_of(word, self.word(at)))
+            let joining = self.joining_words(at).iter().copied();
+            nearest(self.word(at), joining.filter(|word| is_slip_of(word, self.word(at)))).into_iter().next()
         })?;
         Some(Slip::Word { start: token.start, end: token.end, word, begins_item: item.is_some() })
     }
@@ -124,6 +124,7 @@ impl Words<'_> {
             // `light sphere {` and `camera front {` are whole.
             Kind::Word if !matches!(self.word(at), "light" | "camera") => &["place", "if", "for"],
             Kind::Number | Kind::Open(b'(') => &["if", "place"],
+            Kind::Open(b'{') if is_slip_of("units", self.word(at)) => &["units"],
             _ => &[],
         }
     }
@@ -147,6 +148,8 @@ impl Words<'_> {
             Some(Kind::Open(b'{')) if after_block => &["else"],
             None if after_block && self.kind(at + 1) == Some(Kind::Open(b'{')) => &["else"],
             Some(Kind::Word) if after_block && next == "if" => &["else"],
+            // A transform goes on in the next line.
+            Some(Kind::Word) if self.tokens[at].is_first && self.closes_call(at) => &["then"],
             Some(Kind::Word | Kind::Open(b'(')) if after_block && !self.sign(at + 2, b':') => &["as", "at"],
             Some(_) if after_value && !after_block && self.begins_value_after(at) => self.infix_words(at),
             Some(Kind::Word | Kind::Number | Kind::Open(b'(')) if self.wants_value(at) && !joins(next) => {
@@ -154,6 +157,11 @@ impl Words<'_> {
             }
             _ => &[],
         }
+    }
+
+    /// Whether the line before ends as a call does, and one follows.
+    fn closes_call(&self, at: usize) -> bool {
+        at > 0 && self.kind(at - 1) == Some(Kind::Close(b')')) && self.kind(at + 2) == Some(Kind::Open(b'('))
     }
 
     /// Whether a value begins after a word, and no colon makes the word a field.
@@ -241,6 +249,8 @@ mod tests {
         assert_eq!(meant("place sphere { radius: 1m } ar (1m, 2m, 3m)"), ["at"]);
         assert_eq!(meant("transform: scale(2) thn rotate_y(30deg)"), ["then"]);
         assert_eq!(meant("focus: onn hero, color: iff night { white } esle { black }"), ["on", "if", "else"]);
+        assert_eq!(meant("transform: scale(2)\n    thn rotate_y(30deg)"), ["then"]);
+        assert_eq!(meant("ubits { length: mm }"), ["units"]);
         assert_eq!(meant("radius:: 1m"), [":"]);
     }
 
@@ -255,6 +265,7 @@ mod tests {
             "place ring(3) as circle at (0m, 1m, 0m) { transform: scale(2) }",
             "# a comment of other languages",
             "for (i in 0..3) { sphere { radius: 1m } }",
+            "let t = scale(2)\nplace ring(3)",
         ] {
             assert_eq!(meant(line), [] as [&str; 0], "{line}");
         }

@@ -2,7 +2,7 @@
 
 use super::roles::{Roles, defined_names, roles};
 use super::tokens::{Token, tokens};
-use snell::diag::{Problem, Problems};
+use snell::diag::{Problem, Problems, Style};
 use snell::source::{Memory, SourceMap};
 use snell::syntax::{self, ast::File};
 use std::collections::BTreeSet;
@@ -61,8 +61,6 @@ pub struct Report {
     pub labels: Vec<Label>,
     /// What to do.
     pub help: String,
-    /// The sentence.
-    pub message: String,
 }
 
 /// All well-formed scenes.
@@ -172,8 +170,22 @@ impl Scene {
         self.files.iter().map(|file| file.text.clone()).collect()
     }
 
-    /// What the compiler says when its files hold these texts: what `snell check` does.
+    /// What the compiler says when its files hold these texts.
     pub fn say(&self, texts: &[String]) -> Said {
+        let (sources, problems) = self.check(texts);
+        let refused = problems.has_errors();
+        let reports = problems.into_sorted();
+        Said { reports: reports.iter().map(|problem| self.said(problem, &sources)).collect(), refused }
+    }
+
+    /// The same, for people.
+    pub fn report(&self, texts: &[String]) -> String {
+        let (sources, problems) = self.check(texts);
+        problems.into_report(&sources).render_human(&Style::default())
+    }
+
+    /// What `snell check` does.
+    fn check(&self, texts: &[String]) -> (SourceMap, Problems) {
         let mut disk = Memory(self.disk.0.clone());
         for (file, text) in self.files.iter().zip(texts) {
             disk.0.insert(file.path.clone(), text.clone().into_bytes());
@@ -189,9 +201,7 @@ impl Scene {
                 snell::plan::warn(&plan, &loaded, &mut problems);
             }
         }
-        let refused = problems.has_errors();
-        let reports = problems.into_sorted();
-        Said { reports: reports.iter().map(|problem| self.said(problem, &sources)).collect(), refused }
+        (sources, problems)
     }
 
     fn said(&self, problem: &Problem, sources: &SourceMap) -> Report {
@@ -206,7 +216,6 @@ impl Scene {
         Report {
             labels: labels.map(label).collect(),
             help: problem.error.help().map(|help| help.to_string()).unwrap_or_default(),
-            message: problem.error.to_string(),
         }
     }
 }

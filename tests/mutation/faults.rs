@@ -32,6 +32,12 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Whether such a fault is one wherever it stands, evaluated or not.
+    const fn is_of_syntax(self) -> bool {
+        use Kind::{Brace, Bracket, Colon, Comma, Cycle, Keyword, Quote};
+        matches!(self, Brace | Bracket | Colon | Comma | Cycle | Keyword | Quote)
+    }
+
     /// Every kind, with what the table calls it.
     pub const ALL: [(Self, &'static str); 18] = [
         (Self::Keyword, "typo in a keyword"),
@@ -92,26 +98,9 @@ pub enum Cure {
 /// A fault of this kind at a random place of a file, if there is a place for one.
 pub fn fault(kind: Kind, scene: &Scene, file: usize, random: &mut Random) -> Option<Fault> {
     let site = Site { scene, index: file, file: &scene.files[file] };
-    match kind {
-        Kind::Keyword => site.keyword(random),
-        Kind::Block => site.typo(kind, Role::Block, random),
-        Kind::Field => site.typo(kind, Role::Field, random),
-        Kind::Name => site.typo(kind, Role::Name, random),
-        Kind::Unit => site.typo(kind, Role::Unit, random),
-        Kind::Word => site.typo(kind, Role::Word, random),
-        Kind::Brace => site.bracket(kind, "{}", random),
-        Kind::Bracket => site.bracket(kind, "()[]", random),
-        Kind::Comma => site.comma(random),
-        Kind::Colon => site.colon(random),
-        Kind::Quote => site.quote(random),
-        Kind::Type => site.wrong_type(random),
-        Kind::Dimension => site.wrong_dimension(random),
-        Kind::Arity => site.arity(random),
-        Kind::MissingFile => site.missing_file(random),
-        Kind::Range => site.out_of_range(random),
-        Kind::Duplicate => site.duplicate(random),
-        Kind::Cycle => Some(site.cycle()),
-    }
+    let fault = site.fault(kind, random)?;
+    let is_idle = |branch: &Range<usize>| branch.start < fault.at.start && fault.at.end < branch.end;
+    (kind.is_of_syntax() || !site.file.roles.idle.iter().any(is_idle)).then_some(fault)
 }
 
 /// The words that begin or join items and expressions.
@@ -152,6 +141,29 @@ struct Site<'a> {
 }
 
 impl Site<'_> {
+    fn fault(&self, kind: Kind, random: &mut Random) -> Option<Fault> {
+        match kind {
+            Kind::Keyword => self.keyword(random),
+            Kind::Block => self.typo(kind, Role::Block, random),
+            Kind::Field => self.typo(kind, Role::Field, random),
+            Kind::Name => self.typo(kind, Role::Name, random),
+            Kind::Unit => self.typo(kind, Role::Unit, random),
+            Kind::Word => self.typo(kind, Role::Word, random),
+            Kind::Brace => self.bracket(kind, "{}", random),
+            Kind::Bracket => self.bracket(kind, "()[]", random),
+            Kind::Comma => self.comma(random),
+            Kind::Colon => self.colon(random),
+            Kind::Quote => self.quote(random),
+            Kind::Type => self.wrong_type(random),
+            Kind::Dimension => self.wrong_dimension(random),
+            Kind::Arity => self.arity(random),
+            Kind::MissingFile => self.missing_file(random),
+            Kind::Range => self.out_of_range(random),
+            Kind::Duplicate => self.duplicate(random),
+            Kind::Cycle => Some(self.cycle()),
+        }
+    }
+
     fn text(&self, range: &Range<usize>) -> &str {
         &self.file.text[range.clone()]
     }

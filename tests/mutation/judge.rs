@@ -22,8 +22,8 @@ pub struct Verdict {
 pub struct Judgement {
     /// One for each fault.
     pub verdicts: Vec<Verdict>,
-    /// The reports that belong to no fault.
-    pub spurious: Vec<usize>,
+    /// How many reports belong to no fault.
+    pub spurious: usize,
 }
 
 /// Judges what is said of a mutant.
@@ -35,16 +35,14 @@ pub fn judge(mutant: &Mutant, said: &Said) -> Judgement {
         }),
         None => false,
     };
-    let new: Vec<(usize, &Report)> =
-        said.reports.iter().enumerate().filter(|(_, report)| !is_old(report)).collect();
+    let new: Vec<&Report> = said.reports.iter().filter(|report| !is_old(report)).collect();
     let touches = |fault: &Fault, report: &Report| {
         let construct = mutant.mutated(fault.file, &fault.construct);
         report.labels.iter().any(|label| touch(label, fault.file, &construct))
     };
     let belongs = |report: &Report| mutant.faults.iter().any(|fault| touches(fault, report));
     let verdict = |fault: &Fault| {
-        let own: Vec<&Report> =
-            new.iter().map(|(_, report)| *report).filter(|report| touches(fault, report)).collect();
+        let own: Vec<&&Report> = new.iter().filter(|report| touches(fault, report)).collect();
         let place = mutant.mutated(fault.file, &fault.place);
         let placed = own.iter().filter(|report| touch(&report.labels[0], fault.file, &place));
         let cures: Vec<bool> = placed.map(|report| cures(&fault.cure, report)).collect();
@@ -57,7 +55,7 @@ pub fn judge(mutant: &Mutant, said: &Said) -> Judgement {
     };
     Judgement {
         verdicts: mutant.faults.iter().map(verdict).collect(),
-        spurious: new.iter().filter(|(_, report)| !belongs(report)).map(|(index, _)| *index).collect(),
+        spurious: new.iter().filter(|report| !belongs(report)).count(),
     }
 }
 

@@ -14,34 +14,43 @@ mod table;
 mod tokens;
 mod typo;
 
+use corpus::Scene;
 use mutant::Mutant;
 use random::Random;
 pub use table::Table;
 
 /// Which faults there are.
 pub const SEED: u64 = 1621;
-
 /// How many faults a scene gets at most.
-pub const MOST_FAULTS: usize = 8;
+const MOST_FAULTS: usize = 8;
 
-/// Makes `count` mutants with 1 to `most` faults, has them compiled, and counts what comes of their faults.
-pub fn run(count: usize, most: usize) -> Table {
+/// Makes `count` mutants, has them compiled, and counts what comes of their faults.
+pub fn run(count: usize) -> Table {
     let scenes = corpus::scenes();
     let mut table = Table::new(&scenes);
     for number in 0..count {
-        // A seed of its own for each: any of them can be looked at alone.
-        let mut random = Random(SEED + ((number as u64) << 32));
-        let mutant = Mutant::new(&scenes, most, &mut random);
-        let texts = mutant.texts();
-        let said = mutant.scene.say(&texts);
+        let mutant = mutant(&scenes, number);
+        let said = mutant.scene.say(&mutant.texts());
         let judgement = judge::judge(&mutant, &said);
         table.add(number, &mutant, &said, &judgement);
     }
     table
 }
 
+/// The mutant of this number; each has a seed of its own, so that any of them can be looked at alone.
+fn mutant(scenes: &[Scene], number: usize) -> Mutant<'_> {
+    Mutant::new(scenes, MOST_FAULTS, &mut Random(SEED + ((number as u64) << 32)))
+}
+
+/// The faults of one mutant, and the report that it gets.
+pub fn show(number: usize) -> String {
+    let scenes = corpus::scenes();
+    let mutant = mutant(&scenes, number);
+    let faults: Vec<String> = mutant.faults.iter().map(|fault| mutant.describe(fault)).collect();
+    format!("{}\n\n{}", faults.join("\n"), mutant.scene.report(&mutant.texts()))
+}
+
 #[test]
 fn most_mistakes_are_told_where_they_are_with_their_cure() {
-    let table = run(400, MOST_FAULTS);
-    table.assert_good();
+    run(400).assert_good();
 }

@@ -1,7 +1,7 @@
 //! What each word of a well-formed file is for, read off its syntax tree.
 
 use snell::source::{SourceMap, Span};
-use snell::syntax::ast::{Block, Entry, Expr, ExprKind, File, Item, ItemKind, Name, Object};
+use snell::syntax::ast::{BinaryOp, Block, Entry, Expr, ExprKind, File, Item, ItemKind, Name, Object};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -61,16 +61,25 @@ pub struct Roles {
     pub single: Vec<Range<usize>>,
     /// The functions of the file: how many parameters each has, `None` when some may be left out.
     pub functions: BTreeMap<String, Option<usize>>,
+    /// Branches that are not taken: what they mean is not looked at.
+    pub idle: Vec<Range<usize>>,
     /// The files that it names: the place of the text, that of the item, the path.
     pub files: Vec<(Range<usize>, Range<usize>, String)>,
     base: u32,
     names: BTreeSet<String>,
+    /// The parameters of the file with their defaults.
+    defaults: BTreeMap<String, Expr>,
 }
 
 /// The roles of the words of a file; `names` are those that the scene defines.
 pub fn roles(file: &File, sources: &SourceMap, names: &BTreeSet<String>) -> Roles {
     let base = sources.file(file.source).base;
     let mut roles = Roles { base, names: names.clone(), ..Roles::default() };
+    for item in &file.items {
+        if let ItemKind::Param { name, value, .. } = &item.kind {
+            roles.defaults.insert(name.value.clone(), value.clone());
+        }
+    }
     for item in &file.items {
         let range = roles.local(item.span);
         if is_single(item) {
@@ -190,14 +199,42 @@ impl Roles {
 
     fn choice(&mut self, condition: &Expr, then: &Block, otherwise: Option<&Block>) {
         self.expr(condition);
+        let idle = match self.holds(condition) {
+            Some(true) => otherwise,
+            Some(false) => Some(then),
+            None => None,
+        };
+        self.idle.extend(idle.map(|block| self.local(block.span)));
         self.block(then);
         otherwise.into_iter().for_each(|block| self.block(block));
+    }
+
+    /// Whether a condition holds, as far as parameters with plain defaults tell.
+    fn holds(&self, condition: &Expr) -> Option<bool> {
+        match &condition.kind {
+            ExprKind::Bool(value) => Some(*value),
+            ExprKind::Name(name) => self.defaults.get(name).and_then(|default| self.holds(default)),
+            ExprKind::Binary { op, left, right } if op.value == BinaryOp::Greater => {
+                Some(self.number(left)? > self.number(right)?)
+            }
+            _ => None,
+        }
+    }
+
+    fn number(&self, expr: &Expr) -> Option<f64> {
+        match &expr.kind {
+            ExprKind::Number { value, unit: None, .. } => Some(*value),
+            ExprKind::Name(name) => self.defaults.get(name).and_then(|default| self.number(default)),
+            _ => None,
+        }
     }
 
     fn expr(&mut self, expr: &Expr) {
         match &expr.kind {
             ExprKind::Number { unit, .. } => {
-                unit.iter().filter(|unit| unit.as_str() != "%").for_each(|unit| self.note(unit.span, Role::Unit));
+                unit.iter()
+                    .filter(|unit| unit.as_str() != "%")
+                    .for_each(|unit| self.note(unit.span, Role::Unit));
             }
             ExprKind::Name(name) => {
                 let role = if self.names.contains(name) { Role::Name } else { Role::Word };

@@ -1,4 +1,4 @@
-//! The scores, kind by kind.
+//! The scores, kind by kind, and the page that shows them.
 
 use super::corpus::{Said, Scene};
 use super::faults::Kind;
@@ -25,18 +25,50 @@ pub struct Table {
     mutants: usize,
     spurious: usize,
     accepted: usize,
-    /// What went wrong, for people to read: kind, what was missed, how to see it again.
-    pub misses: Vec<(Kind, &'static str, String)>,
+    /// For each kind and each way to miss a fault, the first of them and how many there are.
+    misses: BTreeMap<(&'static str, Kind), (usize, String)>,
 }
 
+/// What is promised of all faults together.
+const REPORTED: f64 = 0.95;
+const PLACED: f64 = 0.90;
+const CURED: f64 = 0.85;
+const SPURIOUS: f64 = 0.1;
+
 impl Row {
-    fn add(&mut self, verdict: &Verdict) {
-        self.faults += 1;
-        self.reported += usize::from(verdict.reported);
-        self.placed += usize::from(verdict.placed);
-        self.curable += usize::from(verdict.cured.is_some());
-        self.cured += usize::from(verdict.cured == Some(true));
-        self.echoes += verdict.echoes;
+    fn add(&mut self, other: &Self) {
+        self.faults += other.faults;
+        self.reported += other.reported;
+        self.placed += other.placed;
+        self.curable += other.curable;
+        self.cured += other.cured;
+        self.echoes += other.echoes;
+    }
+
+    fn of(verdict: &Verdict) -> Self {
+        Self {
+            faults: 1,
+            reported: verdict.reported.into(),
+            placed: verdict.placed.into(),
+            curable: verdict.cured.is_some().into(),
+            cured: (verdict.cured == Some(true)).into(),
+            echoes: verdict.echoes,
+        }
+    }
+
+    fn line(&self, name: &str) -> String {
+        let percent = |part, whole| match whole {
+            0 => "–".to_owned(),
+            _ => format!("{:.1} %", 100.0 * share(part, whole)),
+        };
+        format!(
+            "| {name} | {} | {} | {} | {} | {:.2} |\n",
+            self.faults,
+            percent(self.reported, self.faults),
+            percent(self.placed, self.faults),
+            percent(self.cured, self.curable),
+            share(self.echoes, self.faults),
+        )
     }
 }
 
@@ -49,7 +81,7 @@ impl Table {
             mutants: 0,
             spurious: 0,
             accepted: 0,
-            misses: Vec::new(),
+            misses: BTreeMap::new(),
         }
     }
 
@@ -57,111 +89,70 @@ impl Table {
     pub fn add(&mut self, number: usize, mutant: &Mutant, said: &Said, judgement: &Judgement) {
         self.mutants += 1;
         self.accepted += usize::from(!said.refused);
-        self.spurious += judgement.spurious.len();
+        self.spurious += judgement.spurious;
         for (fault, verdict) in mutant.faults.iter().zip(&judgement.verdicts) {
-            self.rows.entry(fault.kind).or_default().add(verdict);
-            let what = match verdict {
+            self.rows.entry(fault.kind).or_default().add(&Row::of(verdict));
+            let how = match verdict {
                 Verdict { reported: false, .. } => "not reported",
-                Verdict { placed: false, .. } => "not placed",
+                Verdict { placed: false, .. } => "not in its place",
                 Verdict { cured: Some(false), .. } => "not cured",
                 _ => continue,
             };
-            self.misses.push((fault.kind, what, format!("{number} {}{}", mutant.describe(fault), shown(mutant, said, fault.file))));
-        }
-        for &index in &judgement.spurious {
-            let report = &said.reports[index];
-            let kind = mutant.faults.first().map_or(Kind::Cycle, |fault| fault.kind);
-            self.misses.push((kind, "spurious", format!("{number} {}: {}", report.message, mutant.faults.iter().map(|f| mutant.describe(f)).collect::<Vec<_>>().join(" & "))));
+            let first = || (0, format!("mutant {number}, {}", mutant.describe(fault)));
+            self.misses.entry((how, fault.kind)).or_insert_with(first).0 += 1;
         }
     }
 
     fn total(&self) -> Row {
-        self.rows.values().fold(Row::default(), |sum, row| Row {
-            faults: sum.faults + row.faults,
-            reported: sum.reported + row.reported,
-            placed: sum.placed + row.placed,
-            curable: sum.curable + row.curable,
-            cured: sum.cured + row.cured,
-            echoes: sum.echoes + row.echoes,
-        })
+        let mut total = Row::default();
+        self.rows.values().for_each(|row| total.add(row));
+        total
     }
 
     /// The table as Markdown.
     pub fn markdown(&self) -> String {
-        let mut out = String::from(
-            "| kind | faults | reported | in its place | cured | echoes a fault |\n|---|--:|--:|--:|--:|--:|\n",
-        );
-        for (kind, name) in Kind::ALL {
-            if let Some(row) = self.rows.get(&kind) {
-                line(&mut out, name, row);
-            }
-        }
-        line(&mut out, "**all**", &self.total());
-        out
+        let head = "| kind | faults | reported | in its place | cured | echoes a fault |\n|---|--:|--:|--:|--:|--:|\n";
+        let rows = Kind::ALL.iter().filter_map(|(kind, name)| Some(self.rows.get(kind)?.line(name)));
+        format!("{head}{}{}", rows.collect::<String>(), self.total().line("**all**"))
     }
 
     /// What is counted for all kinds together.
     pub fn summary(&self) -> String {
-        let total = self.total();
+        let faults = self.total().faults;
         format!(
-            "{} mutants of {} scenes with {} faults: {:.3} spurious reports a fault, {} mutants accepted",
+            "{} mutants of {} scenes hold {faults} faults. Reports that belong to no fault: {} ({:.3} a fault). \
+             Mutants that were accepted: {}.",
             self.mutants,
             self.scenes,
-            total.faults,
-            self.spurious as f64 / total.faults as f64,
+            self.spurious,
+            share(self.spurious, faults),
             self.accepted,
         )
     }
 
-    /// Holds all faults together to what was promised.
+    /// What is missed, the first example of each kind.
+    pub fn missed(&self) -> String {
+        let mut out =
+            String::from("| kind | what is missed | how often | for example |\n|---|---|--:|---|\n");
+        for ((how, kind), (count, example)) in &self.misses {
+            let name = Kind::ALL.iter().find(|(known, _)| known == kind).map_or("", |(_, name)| name);
+            let _ = writeln!(out, "| {name} | {how} | {count} | {} |", example.replace('\n', " "));
+        }
+        out
+    }
+
+    /// Holds all faults together to what is promised.
     pub fn assert_good(&self) {
         let total = self.total();
-        let table = || format!("{}\n{}", self.markdown(), self.summary());
-        assert!(share(total.reported, total.faults) >= 0.95, "too few are reported\n{}", table());
-        assert!(share(total.placed, total.faults) >= 0.90, "too few are in their place\n{}", table());
-        assert!(share(total.cured, total.curable) >= 0.85, "too few are cured\n{}", table());
-        assert!(
-            share(self.spurious, total.faults) <= 0.1,
-            "too many reports belong to no fault\n{}",
-            table()
-        );
-        assert_eq!(self.accepted, 0, "some mutants are accepted\n{}", table());
+        let all = format!("{}\n{}\n{}", self.markdown(), self.summary(), self.missed());
+        assert!(share(total.reported, total.faults) >= REPORTED, "too few are reported\n{all}");
+        assert!(share(total.placed, total.faults) >= PLACED, "too few are in their place\n{all}");
+        assert!(share(total.cured, total.curable) >= CURED, "too few are cured\n{all}");
+        assert!(share(self.spurious, total.faults) <= SPURIOUS, "too many reports belong to no fault\n{all}");
+        assert_eq!(self.accepted, 0, "some mutants are accepted\n{all}");
     }
 }
 
 fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
-}
-
-fn line(out: &mut String, name: &str, row: &Row) {
-    let percent = |part, whole| match whole {
-        0 => "–".to_owned(),
-        _ => format!("{:.1} %", 100.0 * share(part, whole)),
-    };
-    let _ = writeln!(
-        out,
-        "| {name} | {} | {} | {} | {} | {:.2} |",
-        row.faults,
-        percent(row.reported, row.faults),
-        percent(row.placed, row.faults),
-        percent(row.cured, row.curable),
-        share(row.echoes, row.faults),
-    );
-}
-
-fn shown(mutant: &Mutant, said: &Said, file: usize) -> String {
-    let texts = mutant.texts();
-    let mut out = String::new();
-    for report in &said.reports {
-        for (i, label) in report.labels.iter().enumerate() {
-            if label.file > texts.len() { continue }
-            let text = &texts[label.file];
-            let line = text[..label.range.start].matches('\n').count();
-            let col = label.range.start - text[..label.range.start].rfind('\n').map_or(0, |e| e + 1);
-            let _ = if i == 0 { write!(out, "\n      {}:{}+{} {} | {}\n         {}", line + 1, col + 1, label.range.len(), report.message, report.help, text.lines().nth(line).unwrap_or("")) } else {
-              write!(out, "\n         (also {}:{})", line + 1, col + 1) };
-        }
-    }
-    let _ = file;
-    out
 }
