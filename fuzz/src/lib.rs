@@ -118,7 +118,7 @@ fn canonical_and_tree(text: &str) -> (Option<String>, String) {
     let Some((sources, id)) = source(text) else { return (None, String::new()) };
     let file = syntax::parse_file(&sources, id, &mut Problems::default());
     let canonical = format(&sources, id, &mut Problems::default());
-    (canonical, syntax::dump::dump(&Program { files: vec![file] }))
+    (canonical, syntax::dump::dump(&Program { files: vec![file], lacks_files: false }))
 }
 
 fn letters(text: &str) -> String {

@@ -7,9 +7,9 @@ use super::builtin;
 use super::coerce::{is_word_of, unknown_word};
 use super::color;
 use super::error::Error;
-use super::expr::unknown_unit;
 use super::fields::unknown_field_help;
 use super::lint::{Lint, What};
+use super::meant::unknown_unit;
 use crate::diag::did_you_mean;
 use crate::schema::{self, Type};
 use crate::source::Span;
@@ -118,8 +118,9 @@ impl<'a> Lint<'a, '_> {
             self.doubt(|this| {
                 let is_defined = this.find(&object.kind).is_some();
                 block_error(&kind, head, is_defined).unwrap_or_else(|| {
-                    let help =
-                        did_you_mean(&kind, this.scopes.iter().flat_map(|names| names.keys().copied()));
+                    let kinds = schema::blocks().map(|block| block.kind);
+                    let names = this.scopes.iter().flat_map(|names| names.keys().copied());
+                    let help = did_you_mean(&kind, kinds.chain(names));
                     Error::UnknownBlock { kind: kind.clone(), used: head, help }
                 })
             });
@@ -141,7 +142,7 @@ impl<'a> Lint<'a, '_> {
     /// The unit of a number.
     pub(super) fn check_unit(&mut self, unit: &Name) {
         if schema::unit(unit).is_none() {
-            self.doubt(|_| unknown_unit(unit));
+            self.doubt(|_| unknown_unit(unit, None));
         }
     }
 

@@ -13,10 +13,13 @@ mod item;
 mod literal;
 mod load;
 mod lower;
+mod plausible;
 mod repair;
 mod scan;
+mod spell;
 mod stray;
 mod text;
+mod token;
 
 use crate::diag::Problems;
 use crate::source::{FileId, Files, SourceMap};
