@@ -3,6 +3,7 @@
 mod allow;
 mod classic;
 mod command_line;
+mod convert_cli;
 mod convert_rays;
 mod doubts;
 mod explain;

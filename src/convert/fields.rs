@@ -4,7 +4,6 @@ use super::log::{Log, READ};
 use super::mistake::Mistake;
 use super::parse::{Block, List, Number, Span, Word};
 use super::words::{Args, Vocabulary};
-use crate::diag::did_you_mean;
 use crate::math::DVec3;
 
 /// A key and its values.
@@ -231,7 +230,7 @@ impl Log {
         let help = if is_known {
             Some(format!("this kind of `{block}` gives it no meaning"))
         } else {
-            did_you_mean(field.key, vocabulary.keys())
+            self.proposal(field.key, vocabulary.keys())
         };
         let at = field.span.clone().into();
         self.notes.note(Mistake::UnknownField { field: field.key.into(), block: block.into(), at, help });

@@ -1,7 +1,7 @@
 //! Mistakes and fates: what every reading function writes to.
 
 use super::mistake::Mistake;
-use super::notebook::Notebook;
+use super::notebook::{MOST_OF_A_KIND, Notebook};
 use super::parse::{Block, Span};
 use super::report::{Fate, Outcome};
 use crate::diag::did_you_mean;
@@ -18,11 +18,13 @@ pub struct Log {
     pub fates: BTreeMap<usize, Fate>,
     /// Where the fields begin whose meaning was guessed.
     guessed: BTreeSet<usize>,
+    /// How often a word was looked for that may be meant by another.
+    proposals: usize,
 }
 
 impl Log {
     pub fn new(notes: Notebook) -> Self {
-        Self { notes, fates: BTreeMap::new(), guessed: BTreeSet::new() }
+        Self { notes, fates: BTreeMap::new(), guessed: BTreeSet::new(), proposals: 0 }
     }
 
     pub fn mapped(&mut self, span: &Span, to: impl Into<String>) {
@@ -104,14 +106,17 @@ impl Log {
     }
 
     /// Drops a whole block with a warning.
-    pub fn unknown_block(&mut self, block: &Block<'_>, place: String, names: &[&str]) {
+    pub fn unknown_block(&mut self, block: &Block<'_>, place: String, names: &[&'static str]) {
         self.drop_all(&block.span, "not known to the converter");
-        self.notes.note(Mistake::UnknownBlock {
-            name: block.name().into(),
-            place,
-            at: block.head.clone().into(),
-            help: did_you_mean(block.name(), names.iter().copied()),
-        });
+        let help = self.proposal(block.name(), names.iter().copied());
+        let (name, at) = (block.name().into(), block.head.clone().into());
+        self.notes.note(Mistake::UnknownBlock { name, place, at, help });
+    }
+
+    /// What may be meant by an unknown word. Looking takes its time, so it ends with the list of mistakes.
+    pub fn proposal(&mut self, word: &str, known: impl Iterator<Item = &'static str>) -> Option<String> {
+        self.proposals += 1;
+        (self.proposals <= 2 * MOST_OF_A_KIND).then(|| did_you_mean(word, known)).flatten()
     }
 
     /// Notes a value that the converted scene could not have.

@@ -101,6 +101,15 @@ fn split(file: Node) -> Vec<Node> {
     scenes
 }
 
+impl Item {
+    fn word(&self) -> Option<&str> {
+        match self {
+            Self::Word(word) => Some(word),
+            Self::Block(_) => None,
+        }
+    }
+}
+
 impl Node {
     fn blocks(&self) -> impl Iterator<Item = &Self> {
         self.items.iter().filter_map(|item| match item {
@@ -110,13 +119,7 @@ impl Node {
     }
 
     fn words(&self) -> Vec<&str> {
-        fn word(item: &Item) -> Option<&str> {
-            match item {
-                Item::Word(word) => Some(word.as_str()),
-                Item::Block(_) => None,
-            }
-        }
-        self.items.iter().filter_map(word).collect()
+        self.items.iter().filter_map(Item::word).collect()
     }
 
     fn has(&self, key: &str) -> bool {

@@ -2,7 +2,7 @@
 
 use super::Args::{Free, Numbers};
 use super::Values::{Number, Vector};
-use super::{Vocabulary, row, stem};
+use super::{Index, Vocabulary, row, stem};
 
 /// `PerspectiveCamera`, `OrthographicCamera` and their relatives. The keys of lenses are their own roles, for what they
 /// mean depends on which of them stand together.
@@ -55,4 +55,5 @@ pub static CAMERA: Vocabulary = Vocabulary {
         stem("focus_distance", Number, "focus focal"),
         stem("lens_radius", Number, "lensradius lenradius apert"),
     ],
+    index: Index::new(),
 };

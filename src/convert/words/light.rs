@@ -2,7 +2,7 @@
 
 use super::Args::{Color, Flag, Free, Numbers, Path};
 use super::Values::{Number, Vector, Word};
-use super::{Vocabulary, row, stem};
+use super::{Index, Vocabulary, row, stem};
 
 /// `Background`.
 pub static BACKGROUND: Vocabulary = Vocabulary {
@@ -18,6 +18,7 @@ pub static BACKGROUND: Vocabulary = Vocabulary {
         stem("cube map", Word, "cube box"),
         stem("picture", Word, "tex map env image sky hdr file"),
     ],
+    index: Index::new(),
 };
 
 /// `Lights` and blocks of one kind of light.
@@ -28,6 +29,7 @@ pub static LIGHTS: Vocabulary = Vocabulary {
         row("setting", Free, "maxNearbyDist_square maxNearbyPhoton"),
     ],
     stems: &[stem("count", Number, "num")],
+    index: Index::new(),
 };
 
 /// Any one light. `u` and `v` are edges or half edges, see the reader.
@@ -79,4 +81,5 @@ pub static LIGHT: Vocabulary = Vocabulary {
         stem("setting", Number, "sampl photon num"),
         stem("obj_file", Word, "obj mesh file"),
     ],
+    index: Index::new(),
 };

@@ -3,12 +3,13 @@
 
 use super::Args::{Color, Flag, Free, Numbers, Path};
 use super::Values::{Number, Vector, Word};
-use super::{Vocabulary, row, stem};
+use super::{Index, Vocabulary, row, stem};
 
 /// `Materials`.
 pub static MATERIALS: Vocabulary = Vocabulary {
     rows: &[row("count", Numbers(1), "numMaterials num_materials")],
     stems: &[stem("count", Number, "num")],
+    index: Index::new(),
 };
 
 /// One material. `diffuse`, `mirror` and `glass` are colours or shares of a lobe.
@@ -97,6 +98,7 @@ pub static MATERIAL: Vocabulary = Vocabulary {
         stem("shininess", Number, "shin expo"),
         stem("diffuse", Number, "diff"),
     ],
+    index: Index::new(),
 };
 
 /// `Checkerboard`, `Noise`, `Marble` and `Wood`.
@@ -110,4 +112,5 @@ pub static SOLID: Vocabulary = Vocabulary {
         row("size", Numbers(1), "size"),
     ],
     stems: &[],
+    index: Index::new(),
 };

@@ -18,6 +18,9 @@ pub use material::{MATERIAL, MATERIALS, SOLID};
 pub use setting::{SETTINGS, TEXTURES};
 pub use shape::{CURVE, GROUP, SHAPE, TRANSFORM};
 
+use rustc_hash::FxHashMap;
+use std::sync::OnceLock;
+
 /// What follows a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Args {
@@ -70,6 +73,20 @@ pub struct Vocabulary {
     rows: &'static [Row],
     /// The first that fits counts.
     stems: &'static [Stem],
+    index: Index,
+}
+
+/// The rows by their keys, as they are spelt and as they are in all other ways; made when it is first needed.
+#[derive(Debug)]
+struct Index {
+    exact: OnceLock<FxHashMap<&'static str, &'static Row>>,
+    loose: OnceLock<FxHashMap<String, (&'static Row, &'static str)>>,
+}
+
+impl Index {
+    const fn new() -> Self {
+        Self { exact: OnceLock::new(), loose: OnceLock::new() }
+    }
 }
 
 const fn row(role: &'static str, args: Args, keys: &'static str) -> Row {
@@ -83,14 +100,20 @@ const fn stem(role: &'static str, values: Values, parts: &'static str) -> Stem {
 impl Vocabulary {
     /// The key's row, exactly as it is spelt.
     pub fn find(&self, key: &str) -> Option<&'static Row> {
-        self.rows.iter().find(|row| row.keys.split(' ').any(|known| known == key))
+        let index = self.index.exact.get_or_init(|| self.listed().map(|(row, key)| (key, row)).collect());
+        index.get(key).copied()
     }
 
     /// The row of a key that differs from a listed one in capitals, underscores and hyphens only, and that key.
     pub fn find_loosely(&self, key: &str) -> Option<(&'static Row, &'static str)> {
-        let wanted = normalised(key);
-        let listed = |row: &'static Row| row.keys.split(' ').map(move |known| (row, known));
-        self.rows.iter().flat_map(listed).find(|(_, known)| normalised(known) == wanted)
+        let index = self.index.loose.get_or_init(|| {
+            let mut index = FxHashMap::default();
+            for (row, key) in self.listed() {
+                index.entry(normalised(key)).or_insert((row, key)); // the first of two counts
+            }
+            index
+        });
+        index.get(&normalised(key)).copied()
     }
 
     /// Whether a word is a key, however it is spelt.
@@ -108,11 +131,52 @@ impl Vocabulary {
 
     /// All keys, for "did you mean".
     pub fn keys(&self) -> impl Iterator<Item = &'static str> {
-        self.rows.iter().flat_map(|row| row.keys.split(' '))
+        self.listed().map(|(_, key)| key)
+    }
+
+    fn listed(&self) -> impl Iterator<Item = (&'static Row, &'static str)> + use<> {
+        self.rows.iter().flat_map(|row| row.keys.split_whitespace().map(move |key| (row, key)))
     }
 }
 
 /// Letters and digits in lower case: `refractive_index` and `RefractiveIndex` are one.
 pub fn normalised(word: &str) -> String {
     word.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn no_key_is_listed_twice() {
+        let all = [
+            ("camera", &CAMERA),
+            ("background", &BACKGROUND),
+            ("lights", &LIGHTS),
+            ("light", &LIGHT),
+            ("materials", &MATERIALS),
+            ("material", &MATERIAL),
+            ("solid", &SOLID),
+            ("group", &GROUP),
+            ("shape", &SHAPE),
+            ("transform", &TRANSFORM),
+        ];
+        for (name, vocabulary) in all {
+            let mut seen = BTreeSet::new();
+            for key in vocabulary.keys() {
+                assert!(seen.insert(key), "{name}: {key}");
+            }
+        }
+    }
+
+    #[test]
+    fn keys_are_found_as_they_are_spelt_and_otherwise() {
+        assert_eq!(MATERIAL.find("refractiveIndex").map(|row| row.role), Some("index"));
+        assert!(MATERIAL.find("RefractiveIndex").is_none());
+        assert_eq!(MATERIAL.find_loosely("Refractive-Index").map(|(row, _)| row.role), Some("index"));
+        assert_eq!(MATERIAL.guess("surface_albedo", Values::Vector), Some("color"));
+        assert_eq!(MATERIAL.guess("sparkle", Values::Number), None);
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::Args::{Free, Numbers, Path};
 use super::Values::Number;
-use super::{Vocabulary, row, stem};
+use super::{Index, Vocabulary, row, stem};
 
 /// `Model`, `Photon`, `Render` and the like.
 pub static SETTINGS: Vocabulary = Vocabulary {
@@ -11,6 +11,7 @@ pub static SETTINGS: Vocabulary = Vocabulary {
         row("switch", Free, "tracing sampling rrProb OMP gamma tmin"),
     ],
     stems: &[stem("samples", Number, "sampleperpixel samplesperpixel spp")],
+    index: Index::new(),
 };
 
 /// `Textures` and the blocks in it: any key with a word names a file.
@@ -20,4 +21,5 @@ pub static TEXTURES: Vocabulary = Vocabulary {
         row("file", Path, "Texture texture imgFile file"),
     ],
     stems: &[],
+    index: Index::new(),
 };

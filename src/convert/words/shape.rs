@@ -2,7 +2,7 @@
 
 use super::Args::{Flag, Free, Lists, Maybe, Numbers, Path};
 use super::Values::{Number, Vector, Word};
-use super::{Vocabulary, row, stem};
+use super::{Index, Vocabulary, row, stem};
 
 /// `Group`.
 pub static GROUP: Vocabulary = Vocabulary {
@@ -12,6 +12,7 @@ pub static GROUP: Vocabulary = Vocabulary {
         row("obj_file", Path, "ObjFile obj_file"),
     ],
     stems: &[stem("count", Number, "num")],
+    index: Index::new(),
 };
 
 /// Any one shape.
@@ -83,6 +84,7 @@ pub static SHAPE: Vocabulary = Vocabulary {
         stem("radius", Number, "radius"),
         stem("scale", Number, "scale"),
     ],
+    index: Index::new(),
 };
 
 /// `Transform`: each key is an operation, their order matters.
@@ -101,7 +103,9 @@ pub static TRANSFORM: Vocabulary = Vocabulary {
         row("velocity", Numbers(3), "velocity"),
     ],
     stems: &[],
+    index: Index::new(),
 };
 
 /// `BezierCurve` and `BsplineCurve`.
-pub static CURVE: Vocabulary = Vocabulary { rows: &[row("controls", Lists, "controls")], stems: &[] };
+pub static CURVE: Vocabulary =
+    Vocabulary { rows: &[row("controls", Lists, "controls")], stems: &[], index: Index::new() };

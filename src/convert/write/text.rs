@@ -23,9 +23,14 @@ pub fn rough(x: f64) -> String {
     format!("{x:.4e}").parse().map(number).unwrap_or_else(|_| number(x))
 }
 
+/// A coordinate, to twelve digits: more than any file has, and fewer than sums get wrong.
+pub fn coordinate(x: f64) -> String {
+    format!("{x:.11e}").parse().map(number).unwrap_or_else(|_| number(x))
+}
+
 /// `(x, y, z)`.
 pub fn point(p: DVec3) -> String {
-    format!("({}, {}, {})", number(p.x), number(p.y), number(p.z))
+    format!("({}, {}, {})", coordinate(p.x), coordinate(p.y), coordinate(p.z))
 }
 
 /// `(x, y, z)` of computed numbers.
@@ -64,5 +69,6 @@ mod tests {
         assert_eq!(number(-0.0), "0");
         assert_eq!(number(1e-7), "1e-7");
         assert_eq!(rounded(0.1 + 0.2), "0.3");
+        assert_eq!(coordinate(-3.817 - 0.5 * 3.345), "-5.4895");
     }
 }

@@ -1,0 +1,69 @@
+//! `snell convert` as a person meets it: which files it writes, and how it ends.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn snell(arguments: &[&str], folder: &Path) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_snell"));
+    command.args(arguments).current_dir(folder).output().expect("the program runs")
+}
+
+fn ours(name: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/convert").join(name).display().to_string()
+}
+
+#[test]
+fn each_scene_of_a_file_becomes_a_file_that_checks_and_is_laid_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let converted =
+        snell(&["convert", &ours("several.txt"), "-o", "x.snell", "--report", "x.json"], folder.path());
+    assert_eq!(converted.status.code(), Some(0));
+    for file in ["x.snell", "x-2.snell"] {
+        assert_eq!(
+            snell(&["check", "--deny", "warnings", file], folder.path()).status.code(),
+            Some(0),
+            "{file}"
+        );
+        assert_eq!(snell(&["fmt", "--check", file], folder.path()).status.code(), Some(0), "{file}");
+    }
+    let report = std::fs::read_to_string(folder.path().join("x.json")).expect("the report");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    assert_eq!(report["scenes"].as_array().map(Vec::len), Some(2));
+    assert_eq!(report["token_count"], report["accounted"]);
+
+    let second = snell(&["convert", &ours("several.txt"), "--scene", "2", "-q"], folder.path());
+    let written = std::fs::read(folder.path().join("x-2.snell")).expect("the second scene");
+    assert_eq!(String::from_utf8_lossy(&second.stdout), String::from_utf8_lossy(&written));
+    assert_eq!(
+        snell(&["convert", &ours("several.txt"), "--scene", "3"], folder.path()).status.code(),
+        Some(2)
+    );
+}
+
+#[test]
+fn what_can_be_skipped_never_fails_but_strictly() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for file in ["mistakes.txt", "doubts.txt", "guesses.txt"] {
+        let lenient = snell(&["convert", &ours(file), "-o", "x.snell"], folder.path());
+        assert_eq!(lenient.status.code(), Some(0), "{file}");
+        let strict = snell(&["convert", &ours(file), "--strict", "-o", "y.snell"], folder.path());
+        assert_eq!(strict.status.code(), Some(1), "{file}");
+        assert!(!folder.path().join("y.snell").exists());
+    }
+}
+
+/// Scenes from Windows and from abroad: UTF-16 with its mark, and bytes that are no UTF-8 in a remark.
+#[test]
+fn any_encoding_is_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = "Background { color 0.5 0.5 0.5 }";
+    let utf16: Vec<u8> =
+        [0xff, 0xfe].into_iter().chain(text.encode_utf16().flat_map(u16::to_le_bytes)).collect();
+    let foreign = [b"// \xb2\xe2\xca\xd4\n", text.as_bytes()].concat();
+    for (name, bytes) in [("a.txt", utf16), ("b.txt", foreign)] {
+        std::fs::write(folder.path().join(name), bytes).expect("a file");
+        let converted = snell(&["convert", name, "-q"], folder.path());
+        assert_eq!(converted.status.code(), Some(0), "{name}");
+        assert!(String::from_utf8_lossy(&converted.stdout).contains("radiance: 0.5"), "{name}");
+    }
+}
