@@ -21,7 +21,7 @@ fn canonical_and_tree(text: &str) -> (Option<String>, String) {
     let (sources, id) = source(text);
     let file = syntax::parse_file(&sources, id, &mut Problems::default());
     let canonical = format(&sources, id, &mut Problems::default());
-    (canonical, syntax::dump::dump(&Program { files: vec![file] }))
+    (canonical, syntax::dump::dump(&Program { files: vec![file], lacks_files: false }))
 }
 
 /// Asserts what formatting promises; `false` when the text has mistakes.

@@ -17,4 +17,6 @@ pub use problems::{Problem, Problems, Severity, Trail};
 pub use report::Report;
 pub use sarif::{Rule, sarif};
 pub use silence::Allow;
-pub use suggest::{did_you_mean, nearest, where_it_was_sought};
+pub use suggest::{
+    did_you_mean, did_you_mean_one_of, is_slip_of, nearest, nearest_of_kind, where_it_was_sought,
+};

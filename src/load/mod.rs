@@ -100,6 +100,7 @@ pub fn load<'a>(
         models: FxHashMap::default(),
         seen_shapes: FxHashSet::default(),
         seen_materials: FxHashSet::default(),
+        seen_textures: FxHashSet::default(),
         seen_models: FxHashSet::default(),
         failed: false,
     };
@@ -127,9 +128,10 @@ struct Loader<'a, 'b> {
     loaded: Loaded<'a>,
     /// Meshes by path, so that a file named twice is read once; `None` for one that was reported.
     models: FxHashMap<PathBuf, Option<Arc<LoadedMesh>>>,
-    /// Shapes, materials, and meshes rendered in their own materials: many objects share one.
+    /// Shapes, materials, textures, and meshes rendered in their own materials: many objects share one.
     seen_shapes: FxHashSet<usize>,
     seen_materials: FxHashSet<usize>,
+    seen_textures: FxHashSet<usize>,
     seen_models: FxHashSet<usize>,
     failed: bool,
 }
@@ -254,7 +256,7 @@ impl Loader<'_, '_> {
     fn texture(&mut self, handle: Handle<Texture>) {
         let scene = self.loaded.scene;
         let TextureKind::Image(image) = &scene.textures[handle].kind else { return };
-        if self.loaded.pictures.contains_key(&handle.index()) {
+        if !self.seen_textures.insert(handle.index()) {
             return;
         }
         let what = Wanted {

@@ -2,6 +2,7 @@
 
 use super::constructor::is_curve;
 use super::error::Error;
+use super::meant::Wanted;
 use super::scope::Scope;
 use super::value::Function;
 use super::{Env, Resolver, Step, Value};
@@ -21,18 +22,29 @@ impl<'a> Resolver<'a> {
         {
             return curve;
         }
-        match self.eval(callee, env) {
+        let function = match &callee.kind {
+            ExprKind::Name(name) => self.name(name, callee.span, Wanted::Function, env),
+            _ => self.eval(callee, env),
+        };
+        match function {
             Value::Builtin(builtin) => {
-                let mut given = |arg: &'a Arg| {
-                    (arg.name.as_ref(), Spanned::new(self.eval(&arg.value, env), arg.value.span))
+                let mut given = |(index, arg): (usize, &'a Arg)| {
+                    let value = match &arg.value.kind {
+                        ExprKind::Number { value, unit, .. } => {
+                            self.numeral(*value, unit.as_ref(), builtin.type_of_argument(index))
+                        }
+                        _ => self.eval(&arg.value, env),
+                    };
+                    (arg.name.as_ref(), Spanned::new(value, arg.value.span))
                 };
-                let given: Vec<_> = args.iter().map(&mut given).collect();
+                let given: Vec<_> = args.iter().enumerate().map(&mut given).collect();
                 self.call_builtin(builtin, given, used)
             }
             Value::Function(function) => self.call_function(&function, args, used, env),
             Value::Poison => {
-                // The arguments may hold mistakes of their own.
-                for arg in args {
+                // The arguments may hold mistakes of their own; a word after a colon may be one that the function knows.
+                let is_word = |arg: &&Arg| arg.name.is_some() && matches!(arg.value.kind, ExprKind::Name(_));
+                for arg in args.iter().filter(|arg| !is_word(arg)) {
                     self.eval(&arg.value, env);
                 }
                 Value::Poison

@@ -4,6 +4,7 @@ use super::builtin;
 use super::dimension::{Dimension, Quantity};
 use super::error::Error;
 use super::fields::EMPTY;
+use super::meant::Wanted;
 use super::{Env, Resolver, Value, color};
 use crate::diag::did_you_mean;
 use crate::ir;
@@ -36,6 +37,10 @@ impl<'a> Resolver<'a> {
             (Type::Block(kind), ExprKind::Object(object)) if object.kind.value == kind => {
                 let block = schema::block(kind).expect("types name declared blocks");
                 Value::Block(std::rc::Rc::new(self.read(block, object.kind.span, &object.body, env)))
+            }
+            (_, ExprKind::Number { value, unit: Some(unit), .. }) => {
+                let value = self.numeral(*value, Some(unit), Some(ty));
+                self.coerce(value, ty, expr.span)
             }
             (Type::Block(kind), ExprKind::Block(body)) => {
                 let block = schema::block(kind).expect("types name declared blocks");
@@ -79,7 +84,10 @@ impl<'a> Resolver<'a> {
             (Type::Projection, "uv") => Value::Projection(ir::Projection::Uv),
             (Type::Lens, "pinhole") => lens(self, "pinhole"),
             (Type::Lens, "thin") => lens(self, "thin"),
-            (Type::Material, _) => self.unknown_material(name, used, env),
+            (Type::Material, _) => match color::named(name) {
+                Some(color) => self.coerce(Value::Color(color), ty, used),
+                None => self.unknown_material(name, used, env),
+            },
             (Type::Bool, "yes" | "no" | "off") => {
                 let help = format!("write `{}`", name == "yes");
                 self.poison(Error::UnknownWord { word: name.to_owned(), wanted: ty.noun(), used, help })
@@ -92,28 +100,10 @@ impl<'a> Resolver<'a> {
                 self.poison(Error::UnknownWord { word: name.to_owned(), wanted: ty.noun(), used, help })
             }
             _ => {
-                let value = self.name(name, used, env);
+                let value = self.name(name, used, Wanted::Value(ty), env);
                 self.coerce(value, ty, used)
             }
         }
-    }
-
-    fn unknown_material(&mut self, name: &str, used: Span, env: &Env<'a>) -> Value<'a> {
-        if let Some(color) = color::named(name) {
-            return self.coerce(Value::Color(color), Type::Material, used);
-        }
-        let kinds =
-            schema::blocks().filter(|block| block.area == schema::Area::Material).map(|block| block.kind);
-        let visible = env.visible();
-        let names = visible.iter().map(|definition| definition.name);
-        let help = match schema::block(name) {
-            Some(_) => self.unknown_name_help(name, env),
-            None => self
-                .imported_name_help(name, &visible)
-                .or_else(|| self.propose(name, names.chain(kinds)))
-                .or_else(|| Some(format!("define it: `let {name} = diffuse {{ color: #ff8800 }}`"))),
-        };
-        self.poison(Error::UnknownMaterial { name: name.to_owned(), used, help })
     }
 
     /// `value` as `ty`: poisoned, or of that type. Bare numbers become lengths in the units of the file.

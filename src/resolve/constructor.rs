@@ -139,6 +139,12 @@ impl<'a> Resolver<'a> {
                 (Some(degree), ExprKind::Name(all)) if degree.value == "degree" && all == "all" => {
                     kind = CurveKind::BezierOneCurve;
                 }
+                (Some(degree), ExprKind::Name(word)) if degree.value == "degree" => {
+                    let (wanted, used) = ("`all`".to_owned(), arg.value.span);
+                    let help =
+                        did_you_mean(word, ["all"]).unwrap_or_else(|| "write `degree: all`".to_owned());
+                    return Some(self.poison(Error::UnknownWord { word: word.clone(), wanted, used, help }));
+                }
                 (None, _) => points = Some(&arg.value),
                 (Some(other), _) => {
                     let (function, help) = (name.to_owned(), "write `bezier(degree: all, [..])`".to_owned());

@@ -2,15 +2,15 @@
 //!
 //! Where evaluation does come, it says more than the text alone shows; so these are kept until it is known where it came.
 
-use super::build::block_error;
+use super::build::{block_error, kinds_for};
 use super::builtin;
 use super::coerce::{is_word_of, unknown_word};
 use super::color;
 use super::error::Error;
-use super::expr::unknown_unit;
 use super::fields::unknown_field_help;
 use super::lint::{Lint, What};
-use crate::diag::did_you_mean;
+use super::meant::unknown_unit;
+use crate::diag::{did_you_mean, did_you_mean_one_of, nearest_of_kind};
 use crate::schema::{self, Type};
 use crate::source::Span;
 use crate::syntax::ast::{Arg, Expr, ExprKind, FileIndex, Function, ItemKind, Name, Object};
@@ -118,8 +118,9 @@ impl<'a> Lint<'a, '_> {
             self.doubt(|this| {
                 let is_defined = this.find(&object.kind).is_some();
                 block_error(&kind, head, is_defined).unwrap_or_else(|| {
-                    let help =
-                        did_you_mean(&kind, this.scopes.iter().flat_map(|names| names.keys().copied()));
+                    let names = this.scopes.iter().flat_map(|names| names.keys().copied());
+                    let known = kinds_for(&object.body).chain(names.map(|name| (name, false)));
+                    let help = did_you_mean_one_of(&nearest_of_kind(&kind, known));
                     Error::UnknownBlock { kind: kind.clone(), used: head, help }
                 })
             });
@@ -141,7 +142,7 @@ impl<'a> Lint<'a, '_> {
     /// The unit of a number.
     pub(super) fn check_unit(&mut self, unit: &Name) {
         if schema::unit(unit).is_none() {
-            self.doubt(|_| unknown_unit(unit));
+            self.doubt(|_| unknown_unit(unit, None));
         }
     }
 

@@ -4,11 +4,11 @@ use super::budget::Limit;
 use super::builtin;
 use super::dimension::{Dimension, Quantity, with_unit};
 use super::error::Error;
-use super::scope::{Definition, Kind, Scope};
+use super::meant::{Wanted, unknown_unit};
+use super::scope::{Kind, Scope};
 use super::{Env, Resolver, Step, Value, color};
-use crate::diag::did_you_mean;
 use crate::ir;
-use crate::schema;
+use crate::schema::Type;
 use crate::source::Span;
 use crate::syntax::ast::{Block, Expr, ExprKind, Name, UnaryOp};
 use std::rc::Rc;
@@ -21,13 +21,13 @@ impl<'a> Resolver<'a> {
 
     fn eval_kind(&mut self, expr: &'a Expr, env: &Env<'a>) -> Value<'a> {
         match &expr.kind {
-            ExprKind::Number { value, unit, .. } => self.numeral(*value, unit.as_ref()),
+            ExprKind::Number { value, unit, .. } => self.numeral(*value, unit.as_ref(), None),
             ExprKind::FNumber(value) => Value::Number(Quantity::new(*value, Dimension::F_NUMBER)),
             ExprKind::Size(width, height) => self.size(width, height, env),
             ExprKind::Color(bytes) => Value::Color(color::from_bytes(*bytes)),
             ExprKind::Text(text) => Value::Text(text.as_str().into()),
             ExprKind::Bool(value) => Value::Bool(*value),
-            ExprKind::Name(name) => self.name(name, expr.span, env),
+            ExprKind::Name(name) => self.name(name, expr.span, Wanted::Anything, env),
             ExprKind::Access { base, field } => self.access(base, field, env),
             ExprKind::Call { callee, args } => self.call(callee, args, expr.span, env),
             ExprKind::Index { base, index } => self.index(base, index, env),
@@ -58,17 +58,15 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    fn numeral(&mut self, value: f64, unit: Option<&Name>) -> Value<'a> {
+    /// A number; `wanted` is the type that is expected of it.
+    pub(super) fn numeral(&mut self, value: f64, unit: Option<&Name>, wanted: Option<Type>) -> Value<'a> {
         let Some(unit) = unit else { return Value::number(value) };
-        if let Some(quantity) = with_unit(value, unit) {
-            return Value::Number(quantity);
-        }
-        self.poison(unknown_unit(unit))
+        with_unit(value, unit).map_or_else(|| self.poison(unknown_unit(unit, wanted)), Value::Number)
     }
 
     fn size(&mut self, width: &'a Expr, height: &'a Expr, env: &Env<'a>) -> Value<'a> {
         let mut side = |expr: &'a Expr| {
-            let value = self.eval_as(expr, schema::Type::Pixels, env);
+            let value = self.eval_as(expr, Type::Pixels, env);
             let Value::Number(pixels) = value else { return None };
             if pixels.value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&pixels.value) {
                 return Some(pixels.value as u32);
@@ -88,7 +86,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// A name: what the scene defines, or a built-in function, or a colour.
-    pub(super) fn name(&mut self, name: &str, used: Span, env: &Env<'a>) -> Value<'a> {
+    pub(super) fn name(&mut self, name: &str, used: Span, wanted: Wanted, env: &Env<'a>) -> Value<'a> {
         if let Some((scope, definition)) = env.find(name) {
             return self.value_of(&scope, &definition);
         }
@@ -101,38 +99,7 @@ impl<'a> Resolver<'a> {
         if let Some(error) = later(name, used) {
             return self.poison(error);
         }
-        let help = self.unknown_name_help(name, env);
-        self.poison(Error::UnknownName { name: name.to_owned(), used, help })
-    }
-
-    /// What to say of a name that nothing defines.
-    pub(super) fn unknown_name_help(&mut self, name: &str, env: &Env<'a>) -> Option<String> {
-        if let Some(block) = schema::block(name) {
-            return Some(format!("`{name}` needs its braces, as in `{}`", block.example));
-        }
-        let visible = env.visible();
-        if let Some(help) = self.imported_name_help(name, &visible) {
-            return Some(help);
-        }
-        let defined = self.propose(name, visible.iter().map(|definition| definition.name));
-        defined
-            .or_else(|| did_you_mean(name, known_names(&visible)))
-            .or_else(|| Some(format!("define it with `let {name} = ..`, or take it away")))
-    }
-
-    /// What to say of a name that an import holds.
-    pub(super) fn imported_name_help(
-        &mut self,
-        name: &str,
-        visible: &[Rc<Definition<'a>>],
-    ) -> Option<String> {
-        let holds = |this: &mut Self, definition: &Definition<'a>| match definition.kind {
-            Kind::Import(Some(file)) => this.root(file).own(name).is_some(),
-            _ => false,
-        };
-        let import = visible.iter().find(|definition| holds(self, definition))?.name;
-        self.proposed.insert(import.to_owned());
-        Some(format!("did you mean `{import}.{name}`?"))
+        self.unknown_name(name, used, wanted, env)
     }
 
     /// `mat.gold`, `p.x`.
@@ -188,7 +155,7 @@ impl<'a> Resolver<'a> {
     }
 
     fn index(&mut self, base: &'a Expr, index: &'a Expr, env: &Env<'a>) -> Value<'a> {
-        let (list, at) = (self.eval(base, env), self.eval_as(index, schema::Type::Int, env));
+        let (list, at) = (self.eval(base, env), self.eval_as(index, Type::Int, env));
         let parts = match list {
             Value::List(parts) | Value::Tuple(parts) => parts,
             Value::Poison => return Value::Poison,
@@ -219,7 +186,7 @@ impl<'a> Resolver<'a> {
         };
         let id = match instance {
             Some((_, definition)) => self.name_id(&definition),
-            None => match self.eval(target, env) {
+            None => match self.object_named(target, env) {
                 Value::Poison => return Value::Poison,
                 value => match named(&value) {
                     Some(id) => id,
@@ -231,6 +198,14 @@ impl<'a> Resolver<'a> {
             },
         };
         Value::Focus(Rc::new(ir::Focus::On(id, self.text(target.span))))
+    }
+
+    /// The value of what stands after `on`.
+    fn object_named(&mut self, target: &'a Expr, env: &Env<'a>) -> Value<'a> {
+        match &target.kind {
+            ExprKind::Name(name) => self.name(name, target.span, Wanted::Value(Type::Object), env),
+            _ => self.eval(target, env),
+        }
     }
 
     fn list(&mut self, parts: &'a [Expr], span: Span, env: &Env<'a>) -> Value<'a> {
@@ -257,7 +232,7 @@ impl<'a> Resolver<'a> {
         let complete = self.repeat(name, range, env, |this, turn| {
             let keep = filter.is_none_or(|filter| {
                 this.enter(filter.span);
-                !matches!(this.eval_as(filter, schema::Type::Bool, turn), Value::Bool(false))
+                !matches!(this.eval_as(filter, Type::Bool, turn), Value::Bool(false))
             });
             if keep {
                 this.enter(value.span);
@@ -338,7 +313,7 @@ impl<'a> Resolver<'a> {
         let value = self.eval(operand, env);
         match (op, value) {
             (_, Value::Poison) => Value::Poison,
-            (UnaryOp::Not, value) => match self.coerce(value, schema::Type::Bool, operand.span) {
+            (UnaryOp::Not, value) => match self.coerce(value, Type::Bool, operand.span) {
                 Value::Bool(value) => Value::Bool(!value),
                 _ => Value::Poison,
             },
@@ -360,7 +335,7 @@ impl<'a> Resolver<'a> {
         span: Span,
         env: &Env<'a>,
     ) -> Value<'a> {
-        let condition = self.eval_as(condition, schema::Type::Bool, env);
+        let condition = self.eval_as(condition, Type::Bool, env);
         // Told whether the condition holds or not, for the next `--set` may turn it.
         let Some(otherwise) = otherwise else { return self.no_else(span) };
         match condition {
@@ -386,52 +361,10 @@ fn later(name: &str, used: Span) -> Option<Error> {
     Some(Error::NotYet { word: name.to_owned(), used, help: instead.to_owned() })
 }
 
-/// The report of a unit that there is not.
-pub fn unknown_unit(unit: &Name) -> Error {
-    let known = || schema::UNITS.iter().map(|unit| unit.name);
-    let help = spelled_out(unit)
-        .map(|short| format!("did you mean `{short}`?"))
-        .or_else(|| did_you_mean(unit, known()))
-        .unwrap_or_else(|| format!("the units are {}", known().collect::<Vec<_>>().join(" ")));
-    Error::UnknownUnit { unit: unit.value.clone(), used: unit.span, help }
-}
-
-/// The unit that a word spells out.
-fn spelled_out(unit: &str) -> Option<&'static str> {
-    let lower = unit.to_ascii_lowercase();
-    Some(match lower.strip_suffix('s').unwrap_or(&lower) {
-        "millimeter" | "millimetre" => "mm",
-        "centimeter" | "centimetre" => "cm",
-        "meter" | "metre" => "m",
-        "kilometer" | "kilometre" => "km",
-        "inch" | "inche" => "in",
-        "foot" | "feet" => "ft",
-        "degree" | "°" => "deg",
-        "radian" => "rad",
-        "sec" | "second" => "s",
-        "minute" => "min",
-        "watt" => "W",
-        "lumen" => "lm",
-        "kelvin" => "K",
-        "pixel" => "px",
-        "percent" => "%",
-        _ => return None,
-    })
-}
-
 /// The id of the name that an object has.
 fn named(value: &Value) -> Option<u32> {
     match value {
         Value::Object(node) => node.name(),
         _ => None,
     }
-}
-
-/// The names that may have been meant where a value is wanted, the scene's own first.
-fn known_names<'n>(visible: &[Rc<Definition<'n>>]) -> Vec<&'n str> {
-    let mut known: Vec<&str> = visible.iter().map(|definition| definition.name).collect();
-    for name in builtin::names().chain(schema::COLORS.iter().map(|(name, _)| *name)) {
-        known.push(name);
-    }
-    known
 }

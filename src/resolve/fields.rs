@@ -8,7 +8,7 @@ use crate::ir::Input;
 use crate::math::{DVec3, Rgb};
 use crate::schema::{self, Field, Literal, Need};
 use crate::source::{Span, Spanned};
-use crate::syntax::ast::{Block, Entry, Name};
+use crate::syntax::ast::{self, Block, Entry, Name};
 use std::rc::Rc;
 
 /// A block with nothing in it.
@@ -43,6 +43,7 @@ impl<'a> Resolver<'a> {
                 Entry::Field(field) => {
                     let Some((index, declared)) = self.declared(block, &field.name) else {
                         fields.poisoned = true;
+                        self.misspelt(block, field, &names, env);
                         continue;
                     };
                     if let Some(first) = names[index] {
@@ -79,6 +80,22 @@ impl<'a> Resolver<'a> {
             self.report(Error::UnknownField { block, field, used: name.span, help });
         }
         found
+    }
+
+    /// Looks for mistakes in the value of a misspelt field, as in that of the one that it is nearest to.
+    fn misspelt(
+        &mut self,
+        block: &schema::Block,
+        field: &'a ast::Field,
+        given: &[Option<&Name>],
+        env: &Env<'a>,
+    ) {
+        let left = block.fields().enumerate().filter(|(index, _)| given[*index].is_none());
+        let names: Vec<&str> = left.map(|(_, field)| field.name).collect();
+        let meant = nearest(&field.name, names).first().and_then(|name| block.field(name));
+        if let Some(meant) = meant {
+            self.eval_as(&field.value, meant.ty, env);
+        }
     }
 
     /// The value, unless it lies outside the range that its field declares.

@@ -2,6 +2,7 @@
 
 use super::error::Error;
 use super::fields::EMPTY;
+use super::meant::Wanted;
 use super::node::{Node, NodeKind, steps_of};
 use super::scope::{Definition, Kind, Scope};
 use super::{Env, Resolver, Value};
@@ -215,7 +216,7 @@ impl<'a> Resolver<'a> {
     ) -> Option<Rc<Node>> {
         let (target, body) = match called_by_name(place).filter(|named| env.find(&named.kind).is_some()) {
             Some(Object { kind, body, .. }) => {
-                let named = self.name(kind, kind.span, env);
+                let named = self.name(kind, kind.span, Wanted::Value(Type::Object), env);
                 (self.coerce(named, Type::Object, kind.span), body)
             }
             None => (self.eval_as(&place.target, Type::Object, env), place.body.as_ref().unwrap_or(&EMPTY)),

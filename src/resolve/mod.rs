@@ -17,6 +17,7 @@ mod expr;
 mod fields;
 mod item;
 mod lint;
+mod meant;
 mod node;
 mod noise;
 mod operator;
@@ -36,8 +37,9 @@ use budget::{Budget, Limit};
 use dimension::Quantity;
 pub use error::Error;
 use miette::Diagnostic;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use scope::{Definition, Kind, Scope, State};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 pub use survey::{Offer, Offered, survey};
 use value::Value;
@@ -76,9 +78,11 @@ pub fn resolve_within(
     }
     // What seems unused may be used where the text could not be read.
     let readable = !problems.has_errors();
+    let doubtful = doubtful_words(sources, problems);
     let findings = lint::lint(program, problems);
     let mut resolver = Resolver::new(program, sources, problems);
     resolver.budget = Budget::new(limits);
+    resolver.doubtful = doubtful;
     resolver.set_parameters(settings);
     resolver.run_file(FileIndex(0));
     resolver.evaluate_the_rest();
@@ -87,6 +91,23 @@ pub fn resolve_within(
         resolver.report_unused(findings.unused);
     }
     resolver.scene
+}
+
+/// The words of the lines with the mistakes that were found so far.
+fn doubtful_words<'a>(sources: &'a SourceMap, problems: &Problems) -> FxHashMap<&'a str, Vec<Span>> {
+    let line = |offset: usize| {
+        let file = sources.file(sources.find(u32::try_from(offset).ok()?)?);
+        let lines = file.line_range(file.line_of(offset - file.base as usize));
+        Some(Span::new(file.base + lines.start as u32, file.base + lines.end as u32))
+    };
+    let lines: BTreeSet<Span> = problems.list().iter().filter_map(|problem| line(problem.offset())).collect();
+    let mut words: FxHashMap<&str, Vec<Span>> = FxHashMap::default();
+    for line in lines {
+        for word in sources.text(line).split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')) {
+            words.entry(word).or_default().push(line);
+        }
+    }
+    words
 }
 
 /// The scope in which an expression is evaluated.
@@ -120,6 +141,8 @@ struct Resolver<'a> {
     settings: Vec<(&'a str, &'a Setting)>,
     /// Names that a report proposed for others: they are meant, only misspelt.
     proposed: FxHashSet<String>,
+    /// The words of lines that could not be read as they are: what they name may have been defined there.
+    doubtful: FxHashMap<&'a str, Vec<Span>>,
     environment: Option<Span>,
     render: Option<Span>,
     budget: Budget,
@@ -166,6 +189,7 @@ impl<'a> Resolver<'a> {
             reported: FxHashSet::default(),
             settings: Vec::new(),
             proposed: FxHashSet::default(),
+            doubtful: FxHashMap::default(),
             environment: None,
             render: None,
             budget: Budget::default(),

@@ -8,7 +8,7 @@ use crate::diag::did_you_mean;
 use crate::ir;
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
-use crate::syntax::ast::{Expr, FileIndex};
+use crate::syntax::ast::{BinaryOp, Expr, ExprKind, FileIndex};
 use std::rc::Rc;
 
 impl<'a> Resolver<'a> {
@@ -79,7 +79,21 @@ impl<'a> Resolver<'a> {
         ty: Type,
         env: &Env<'a>,
     ) -> Option<(f64, f64, bool, Span)> {
-        match self.eval(range, env) {
+        let value = match &range.kind {
+            // Each end is of the parameter's type, so that what is wrong with one points at it.
+            ExprKind::Binary { op, left, right }
+                if matches!(op.value, BinaryOp::Range | BinaryOp::RangeInclusive) =>
+            {
+                match (self.eval_as(left, ty, env), self.eval_as(right, ty, env)) {
+                    (Value::Number(start), Value::Number(end)) => {
+                        Value::Range(start, end, op.value == BinaryOp::RangeInclusive)
+                    }
+                    _ => Value::Poison,
+                }
+            }
+            _ => self.eval(range, env),
+        };
+        match value {
             Value::Range(..) if Dimension::of(ty).is_none() => {
                 let help = "take the range away: only numbers have one";
                 self.wrong_type("nothing", "a range", range.span, help);

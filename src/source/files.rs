@@ -97,8 +97,9 @@ impl Files for Memory {
         if self.0.contains_key(&path) {
             return Ok(path);
         }
-        let names = self.0.keys().map(|key| key.to_string_lossy().into_owned());
-        let near = rank(names, &path.to_string_lossy());
+        let name_of = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let beside = self.0.keys().filter(|key| key.parent() == path.parent());
+        let near = rank(beside.map(|key| name_of(key)), &name_of(&path));
         Err(Missing::NotFound { tried: vec![path], near })
     }
 

@@ -9,6 +9,8 @@ use crate::source::{FileId, Span, Spanned};
 pub struct Program {
     /// Each file once, however often it is named.
     pub files: Vec<File>,
+    /// Whether a file that was to be included cannot be read: what it defines is then not known.
+    pub lacks_files: bool,
 }
 
 /// Index of a [`File`] in its [`Program`].

@@ -1,179 +1,191 @@
-//! Which bracket closes which, and where one is missing.
+//! Which bracket closes which, and where one is missing or one too many.
 //!
-//! A text whose brackets pair is left alone. Otherwise indentation tells where the missing one belongs, as people
-//! see it: a block ends before the first line that stands no further right than the line that opens it. Where this finds
-//! more mistakes than plain counting does, the text is not indented by its structure, and counting decides.
+//! A text whose brackets pair is left alone. Otherwise each item is mended by itself, with the change after which it
+//! reads best (`plausible.rs`): items begin where a word begins a line without indentation. A text that is not
+//! written so, or too long to try everything, is mended by plain counting.
 
-use super::scan::Mark;
+use super::edit::{Edit, edits};
+use super::plausible::{UNPAIRED, oddity};
+use super::token::{Kind, Token, closer};
 
 /// A change that makes the brackets pair, and what was wrong.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Repair {
     /// The bracket at `open` is not closed: `close` belongs at `at`.
-    Insert { at: usize, open: usize, close: u8 },
+    Close { at: usize, open: usize, close: u8 },
+    /// The bracket at `close` closes nothing: `open` belongs at `at`.
+    Open { at: usize, open: u8, close: usize },
     /// The bracket at `at` closes nothing.
     Remove { at: usize },
+    /// The opening bracket at `at` stands there twice.
+    Doubled { at: usize },
     /// The bracket at `at` should be `close`, to match the one at `open`.
     Replace { at: usize, open: usize, close: u8 },
 }
 
-/// The changes that make the brackets among `marks` pair; `text` has blanks for comments.
-pub(super) fn balance(text: &[u8], marks: &[Mark]) -> Vec<Repair> {
-    let counted = Balance::of(text, marks, false);
+/// How many brackets of an item may be mended before it counts as hopeless.
+const MOST_REPAIRS: usize = 4;
+/// How many ways to mend an item are followed at once.
+const BEAM: usize = 4;
+/// How many tokens may be looked at in all: mending stays quick however many items are broken.
+const MOST_LOOKS: usize = 20_000_000;
+
+/// The changes that make the brackets among `tokens` pair; `text` has blanks for comments.
+pub(super) fn balance(text: &[u8], tokens: &[Token]) -> Vec<Repair> {
+    let counted = count(text, tokens);
     if counted.is_empty() {
         return counted;
     }
-    let seen = Balance::of(text, marks, true);
-    if seen.len() <= counted.len() { seen } else { counted }
+    let mut search = Search { text, functions: functions(text, tokens), looks: 0 };
+    let mut repairs = Vec::new();
+    for item in items(text, tokens) {
+        repairs.extend(search.mend(item));
+    }
+    // More mistakes than counting finds: the text is not indented by its structure.
+    if repairs.len() <= counted.len() { repairs } else { counted }
 }
 
 /// The first bracket that lies more than `limit` deep.
-pub(super) fn too_deep(marks: &[Mark], limit: usize) -> Option<usize> {
+pub(super) fn too_deep(tokens: &[Token], limit: usize) -> Option<usize> {
     let mut depth = 0_usize;
-    for mark in marks {
-        match mark.bracket {
-            Some(b'(' | b'[' | b'{') => depth += 1,
-            Some(_) => depth = depth.saturating_sub(1),
-            None => {}
+    for token in tokens {
+        match token.kind {
+            Kind::Open(_) => depth += 1,
+            Kind::Close(_) => depth = depth.saturating_sub(1),
+            _ => {}
         }
         if depth > limit {
-            return Some(mark.offset);
+            return Some(token.start);
         }
     }
     None
 }
 
-/// The walk over the marks of a text.
-struct Balance<'a> {
-    text: &'a [u8],
-    open: Vec<Mark>,
-    repairs: Vec<Repair>,
+/// The tokens of each item, as its first line's lack of indentation shows.
+fn items<'a>(text: &'a [u8], tokens: &'a [Token]) -> impl Iterator<Item = &'a [Token]> {
+    tokens.chunk_by(move |_, token| {
+        let joins =
+            || matches!(&text[token.range()], b"else" | b"then" | b"or" | b"and" | b"per" | b"as" | b"at");
+        !(token.is_first && token.indent == 0 && token.kind == Kind::Word && !joins())
+    })
 }
 
-impl<'a> Balance<'a> {
-    fn of(text: &'a [u8], marks: &[Mark], by_indent: bool) -> Vec<Repair> {
-        let mut balance = Self { text, open: Vec::new(), repairs: Vec::new() };
-        for (index, &mark) in marks.iter().enumerate() {
-            if by_indent && mark.is_first {
-                balance.close_by_indent(mark);
-            }
-            match mark.bracket {
-                Some(b'(' | b'[' | b'{') => balance.open.push(mark),
-                Some(close) => balance.close(mark, close, by_indent, &marks[index + 1..]),
-                None => {}
-            }
-        }
-        while balance.insert_before(text.len()) {}
-        balance.repairs
-    }
-
-    /// Closes what a line that begins with `mark` cannot belong to.
-    fn close_by_indent(&mut self, mark: Mark) {
-        let closes = |open: &Mark| mark.bracket.is_some_and(|bracket| Some(bracket) == closer(open));
-        let is_closer = matches!(mark.bracket, Some(b')' | b']' | b'}'));
-        // A closing bracket at the start of a line ends what stands at its own indentation, if there is such a thing.
-        if is_closer && !self.open.iter().any(|open| open.indent == mark.indent && closes(open)) {
-            return;
-        }
-        while let Some(top) = self.open.last() {
-            let belongs = mark.indent > top.indent || is_closer && mark.indent == top.indent;
-            if belongs || !self.insert_before(mark.offset) {
-                break;
-            }
-        }
-    }
-
-    /// Closes the innermost open bracket after the last word before `offset`; `false` when none is open.
-    fn insert_before(&mut self, offset: usize) -> bool {
-        let Some(open) = self.open.pop() else { return false };
-        let end = self.text[..offset].trim_ascii_end().len();
-        let at = if self.is_tuple(&open) { first_field(self.text, open.offset + 1, end) } else { end };
-        let close = closer(&open).expect("only opening brackets are kept");
-        self.repairs.push(Repair::Insert { at, open: open.offset, close });
-        true
-    }
-
-    /// Whether no name belongs between these brackets: all but blocks, and the arguments of calls.
-    fn is_tuple(&self, open: &Mark) -> bool {
-        let before = open.offset.checked_sub(1).map_or(b' ', |before| self.text[before]);
-        open.bracket != Some(b'{') && !before.is_ascii_alphanumeric() && before != b'_'
-    }
-
-    /// Pairs a closing bracket with the one it closes.
-    fn close(&mut self, mark: Mark, close: u8, by_indent: bool, rest: &[Mark]) {
-        let at = mark.offset;
-        let Some(&top) = self.open.last() else { return self.repairs.push(Repair::Remove { at }) };
-        let partner = self.open.iter().rposition(|open| closer(open) == Some(close));
-        let too_far_right = by_indent && mark.is_first && mark.indent > top.indent;
-        match partner {
-            Some(partner) if partner + 1 == self.open.len() && !too_far_right => {
-                self.open.pop();
-            }
-            Some(_) if too_far_right => self.repairs.push(Repair::Remove { at }),
-            Some(partner) if top.line != mark.line || self.open[partner].line == mark.line => {
-                while self.open.len() > partner + 1 {
-                    self.insert_before(at);
-                }
-                self.open.pop();
-            }
-            _ if top.line == mark.line && !closes_on_line(&top, rest) => {
-                self.open.pop();
-                let close = closer(&top).expect("only opening brackets are kept");
-                self.repairs.push(Repair::Replace { at, open: top.offset, close });
-            }
-            _ => self.repairs.push(Repair::Remove { at }),
-        }
-    }
+/// The names of the functions that a text defines.
+fn functions<'a>(text: &'a [u8], tokens: &[Token]) -> Vec<&'a [u8]> {
+    let words =
+        tokens.windows(2).filter(|pair| &text[pair[0].range()] == b"fn" && pair[1].kind == Kind::Word);
+    words.map(|pair| &text[pair[1].range()]).collect()
 }
 
-/// Where `, name:` begins within a range of the text, outside brackets in it, or else the range's end.
-fn first_field(text: &[u8], start: usize, end: usize) -> usize {
-    let (mut depth, mut at) = (0_usize, start);
-    while at < end {
-        match text[at] {
-            b'(' | b'[' | b'{' => depth += 1,
-            b')' | b']' | b'}' => depth = depth.saturating_sub(1),
-            b'"' => {
-                at += text[at + 1..end].iter().take_while(|&&byte| byte != b'"' && byte != b'\n').count() + 1
+/// The repairs that plain counting finds: an open bracket is closed at the end of what it is in.
+fn count(text: &[u8], tokens: &[Token]) -> Vec<Repair> {
+    let (mut open, mut repairs): (Vec<Token>, Vec<Repair>) = (Vec::new(), Vec::new());
+    let close_before = |open: Token, offset: usize| {
+        let Kind::Open(bracket) = open.kind else { unreachable!("only opening brackets are kept") };
+        let at = text[..offset].trim_ascii_end().len();
+        Repair::Close { at, open: open.start, close: closer(bracket) }
+    };
+    for &token in tokens {
+        match token.kind {
+            Kind::Open(_) => open.push(token),
+            Kind::Close(close) => {
+                let partner = open.iter().rposition(|open| closes(close, open));
+                let Some(partner) = partner else {
+                    repairs.push(Repair::Remove { at: token.start });
+                    continue;
+                };
+                let unclosed = open.split_off(partner + 1);
+                repairs.extend(unclosed.into_iter().rev().map(|open| close_before(open, token.start)));
+                open.pop();
             }
-            b',' if depth == 0 && is_field(&text[at + 1..end]) => return at,
             _ => {}
         }
-        at += 1;
     }
-    end
+    repairs.extend(open.into_iter().rev().map(|open| close_before(open, text.len())));
+    repairs
 }
 
-/// Whether a text begins with `name:`.
-fn is_field(text: &[u8]) -> bool {
-    let text = text.trim_ascii_start();
-    let name = text.iter().take_while(|byte| byte.is_ascii_alphanumeric() || **byte == b'_').count();
-    text.first().is_some_and(|byte| !byte.is_ascii_digit())
-        && name > 0
-        && text[name..].trim_ascii_start().starts_with(b":")
+/// Whether a bracket closes the one that a token is.
+pub(super) fn closes(close: u8, open: &Token) -> bool {
+    matches!(open.kind, Kind::Open(bracket) if closer(bracket) == close)
 }
 
-/// Whether `open` is closed by the marks after it on its line.
-fn closes_on_line(open: &Mark, rest: &[Mark]) -> bool {
-    let mut depth = 0_usize;
-    for mark in rest.iter().take_while(|mark| mark.line == open.line) {
-        match mark.bracket {
-            Some(b'(' | b'[' | b'{') => depth += 1,
-            Some(close) if depth == 0 => return closer(open) == Some(close),
-            Some(_) => depth -= 1,
-            None => {}
+/// An item with some of its brackets mended.
+struct State {
+    tokens: Vec<Token>,
+    repairs: Vec<Repair>,
+    /// What the changes cost, without how odd the item reads now.
+    cost: u32,
+}
+
+/// The search for the changes after which an item reads best.
+struct Search<'a> {
+    text: &'a [u8],
+    functions: Vec<&'a [u8]>,
+    looks: usize,
+}
+
+impl Search<'_> {
+    /// The repairs of an item: a beam search, since one mistake may make the right cure of another look odd.
+    fn mend(&mut self, item: &[Token]) -> Vec<Repair> {
+        let mut beam = vec![State { tokens: item.to_vec(), repairs: Vec::new(), cost: 0 }];
+        for _ in 0..MOST_REPAIRS {
+            let is_done = |state: &State| count(self.text, &state.tokens).is_empty();
+            if beam.iter().all(is_done) || !self.may_look(&beam) {
+                break;
+            }
+            beam = self.step(beam);
         }
+        let best = beam.swap_remove(0);
+        let rest = count(self.text, &best.tokens);
+        best.repairs.into_iter().chain(rest).collect()
     }
-    false
+
+    /// Whether another step is not too much: a bracket may be put in at every place, and each is looked at as a whole.
+    fn may_look(&mut self, beam: &[State]) -> bool {
+        self.looks += beam.iter().map(|state| state.tokens.len().saturating_pow(2)).sum::<usize>();
+        self.looks <= MOST_LOOKS
+    }
+
+    /// The states that read best after one more change of each, the best first.
+    fn step(&mut self, beam: Vec<State>) -> Vec<State> {
+        let mut next: Vec<(u32, usize, Option<Edit>)> = Vec::new();
+        for (index, state) in beam.iter().enumerate() {
+            let edits = edits(self.text, &state.tokens, &count(self.text, &state.tokens));
+            if edits.is_empty() {
+                next.push((state.cost + oddity(self.text, &state.tokens, &self.functions), index, None));
+            }
+            let total = |edit: Edit| {
+                let edited = edit.apply(&state.tokens);
+                state.cost + edit.cost(&state.tokens) + oddity(self.text, &edited, &self.functions)
+            };
+            // Of equals the last: what is missing is missed late.
+            let edits = edits.into_iter().rev().filter(|edit| edit.pairs(&state.tokens));
+            next.extend(edits.map(|edit| (total(edit), index, Some(edit))));
+        }
+        if next.is_empty() {
+            return beam;
+        }
+        next.sort_by_key(|&(total, ..)| total);
+        // A bracket that is replaced mends two mistakes at once: the states that are not whole yet are not to be judged
+        // against such a one.
+        let unfinished = next.partition_point(|&(total, ..)| total < UNPAIRED);
+        let (whole, rest) = next.split_at(unfinished);
+        let best = whole.iter().take(BEAM).chain(rest.iter().take(BEAM)).copied();
+        best.map(|(_, index, edit)| beam[index].after(edit)).collect()
+    }
 }
 
-/// The bracket that closes an opening one.
-fn closer(open: &Mark) -> Option<u8> {
-    match open.bracket? {
-        b'(' => Some(b')'),
-        b'[' => Some(b']'),
-        b'{' => Some(b'}'),
-        _ => None,
+impl State {
+    /// This state with one more change.
+    fn after(&self, edit: Option<Edit>) -> Self {
+        let Some(edit) = edit else {
+            return Self { tokens: self.tokens.clone(), repairs: self.repairs.clone(), cost: self.cost };
+        };
+        let tokens = edit.apply(&self.tokens);
+        let repair = edit.repair(&self.tokens, &tokens);
+        let repairs = self.repairs.iter().copied().chain([repair]).collect();
+        Self { repairs, cost: self.cost + edit.cost(&self.tokens), tokens }
     }
 }
 
@@ -184,7 +196,7 @@ mod tests {
 
     fn repairs(text: &str) -> Vec<Repair> {
         let scan = scan(text);
-        balance(&scan.text, &scan.marks)
+        balance(&scan.text, &scan.tokens)
     }
 
     #[test]
@@ -196,23 +208,40 @@ mod tests {
     fn a_missing_brace_belongs_where_the_indentation_ends() {
         let text = "group {\n    sphere {\n        radius: 1m\n    plane { y: 0m }\n}\n";
         let at = text.find("\n    plane").unwrap();
-        assert_eq!(repairs(text), [Repair::Insert { at, open: 19, close: b'}' }]);
+        assert_eq!(repairs(text), [Repair::Close { at, open: 19, close: b'}' }]);
+    }
+
+    #[test]
+    fn a_missing_opening_brace_belongs_after_the_words_that_head_the_block() {
+        let text = "group {\n    light sphere\n        radius: 1m\n    }\n    plane { y: 0m }\n}\n";
+        let (at, close) = (text.find("\n        radius").unwrap(), text.find("}\n    plane").unwrap());
+        assert_eq!(repairs(text), [Repair::Open { at, open: b'{', close }]);
+        assert_eq!(repairs("plane y: 0m }"), [Repair::Open { at: 5, open: b'{', close: 12 }]);
     }
 
     #[test]
     fn a_missing_parenthesis_belongs_on_its_line() {
         let text = "camera {\n    position: (0m, 1m, 2m\n    look_at: (0m, 0m, 0m)\n}\n";
         let at = text.find("\n    look").unwrap();
-        assert_eq!(repairs(text), [Repair::Insert { at, open: 23, close: b')' }]);
+        assert_eq!(repairs(text), [Repair::Close { at, open: 23, close: b')' }]);
     }
 
     #[test]
     fn a_missing_parenthesis_belongs_before_the_next_field() {
         let text = "sphere { center: (0m, 1m, 2m, radius: 1m }";
         let at = text.find(", radius").unwrap();
-        assert_eq!(repairs(text), [Repair::Insert { at, open: 17, close: b')' }]);
-        let call = "place ring(1, radius: 1m";
-        assert_eq!(repairs(call), [Repair::Insert { at: call.len(), open: 10, close: b')' }]);
+        assert_eq!(repairs(text), [Repair::Close { at, open: 17, close: b')' }]);
+        let call = "fn ring(n: int) -> object { a }\nplace ring(1, radius: 1m";
+        let open = call.rfind('(').unwrap();
+        assert_eq!(repairs(call), [Repair::Close { at: call.len(), open, close: b')' }]);
+    }
+
+    #[test]
+    fn a_missing_opening_parenthesis_belongs_before_the_value_or_behind_the_function() {
+        let point = "sphere { center: 0m, 1m, 2m), radius: 1m }";
+        assert_eq!(repairs(point), [Repair::Open { at: 17, open: b'(', close: 27 }]);
+        let call = "metal { color: rgb0.9, 0.7, 0.3), roughness: 0.2 }";
+        assert_eq!(repairs(call), [Repair::Open { at: 18, open: b'(', close: 31 }]);
     }
 
     #[test]
@@ -224,5 +253,12 @@ mod tests {
     fn a_brace_too_many_is_the_one_that_stands_too_far_right() {
         let text = "group {\n    sphere {\n    }\n    }\n}\n";
         assert_eq!(repairs(text), [Repair::Remove { at: 31 }]);
+    }
+
+    #[test]
+    fn a_doubled_bracket_is_one_too_many() {
+        assert_eq!(repairs("plane {{ y: 0m }"), [Repair::Doubled { at: 7 }]);
+        assert_eq!(repairs("a: rotate_y((28deg) then scale(2)"), [Repair::Doubled { at: 12 }]);
+        assert_eq!(repairs("mix { a: mirror {}}, amount: 0.25 }"), [Repair::Remove { at: 18 }]);
     }
 }

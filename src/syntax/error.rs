@@ -125,6 +125,14 @@ pub enum SyntaxError {
         next: Span,
     },
 
+    #[error("`{sign}` stands here twice")]
+    #[diagnostic(code(snell::syntax::doubled_sign), help("remove one of them"))]
+    DoubledSign {
+        sign: String,
+        #[label("one `{sign}` too many")]
+        at: Span,
+    },
+
     #[error("this comma has nothing before it")]
     #[diagnostic(code(snell::syntax::extra_comma), help("remove it, or write what is missing"))]
     ExtraComma {

@@ -35,6 +35,7 @@ impl Lower<'_> {
     fn include(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
         let hint = "write `include \"room.snell\"`";
         let mut parts = Parts::of(pair);
+        let is_guessed = self.names_guess(&mut parts);
         let Some(path) = self.path(&mut parts, hint) else { return ItemKind::Poison };
         if let Some(name) = parts.take(Rule::unwanted_as) {
             let hint = "an `include` takes no name, an `import` does: write `import .. as ..`, or take the name away";
@@ -42,7 +43,7 @@ impl Lower<'_> {
             self.note(SyntaxError::Unreadable { what, hint: hint.to_owned(), at });
             return ItemKind::Poison;
         }
-        let request = Request { path, is_import: false };
+        let request = Request { path, is_import: false, is_guessed };
         let file = (self.load)(&request);
         ItemKind::Include { path: request.path, file }
     }
@@ -50,6 +51,7 @@ impl Lower<'_> {
     /// `import = { kw_import ~ (string | missing_value) ~ (kw_as ~ binder | missing_as) }`
     fn import(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
         let mut parts = Parts::of(pair);
+        let is_guessed = self.names_guess(&mut parts);
         let path = self.path(&mut parts, "write `import \"materials.snell\" as mat`");
         if let Some(missing) = parts.take(Rule::missing_as) {
             if path.is_some() {
@@ -62,16 +64,21 @@ impl Lower<'_> {
         parts.skip(Rule::kw_as);
         let alias = self.binder(&mut parts, "this import", "mat");
         let (Some(path), Some(alias)) = (path, alias) else { return ItemKind::Poison };
-        let request = Request { path, is_import: true };
+        let request = Request { path, is_import: true, is_guessed };
         let file = (self.load)(&request);
         ItemKind::Import { path: request.path, alias, file }
+    }
+
+    /// Whether a path comes next of which an end was guessed.
+    fn names_guess(&self, parts: &mut Parts<'_>) -> bool {
+        parts.peek().is_some_and(|pair| pair.as_rule() == Rule::string && self.is_guessed(&pair))
     }
 
     /// The path of a file, `None` and a report when there is none.
     fn path(&mut self, parts: &mut Parts<'_>, hint: &str) -> Option<Name> {
         let pair = parts.next()?;
         if pair.as_rule() == Rule::string {
-            return (!self.is_guessed(&pair)).then(|| self.string(&pair));
+            return Some(self.string(&pair));
         }
         let at = self.text.after_token(pair.as_span().start());
         let what = "the name of a file between quotes".to_owned();
@@ -102,8 +109,12 @@ impl Lower<'_> {
         }
     }
 
-    /// `of_type = _{ ":" ~ (ident | missing_type) | missing_type }`
+    /// `of_type = _{ ":" ~ (ident | missing_type) | missing_colon ~ ident | missing_type }`
     fn of_type(&mut self, parts: &mut Parts<'_>, name: Option<&Name>, example: &str) -> Option<Name> {
+        if let Some(missing) = parts.take(Rule::missing_colon) {
+            let place = name.map_or("here".to_owned(), |name| format!("after `{}`", name.value));
+            self.missing_sign(":", &place, &format!("write it as in `{example}`"), &missing);
+        }
         let pair = parts.next()?;
         if pair.as_rule() == Rule::ident {
             return Some(self.word(&pair));

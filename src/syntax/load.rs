@@ -78,7 +78,7 @@ impl<'a> Loader<'a> {
         let at = request.path.span;
         let path = match self.files.locate(&self.sources.file(from).path, &request.path) {
             Ok(path) => path,
-            Err(missing) => return self.refuse(missing_error(missing, &request.path, at)),
+            Err(missing) => return self.lack(request, missing_error(missing, &request.path, at)),
         };
         if let Some(id) = self.sources.by_path(&path) {
             if self.open.iter().any(|&(open, _)| open == id) {
@@ -93,7 +93,7 @@ impl<'a> Loader<'a> {
         }
         let id = match self.read(&path, at) {
             Ok(id) => id,
-            Err(error) => return self.refuse(error),
+            Err(error) => return self.lack(request, error),
         };
         self.sources.set_included_from(id, at);
         let index = self.add(id);
@@ -102,6 +102,12 @@ impl<'a> Loader<'a> {
         }
         self.fill(index, at);
         Some(index)
+    }
+
+    /// Goes on without a file.
+    fn lack<T>(&mut self, request: &Request, error: SyntaxError) -> Option<T> {
+        self.program.lacks_files |= !request.is_import;
+        if request.is_guessed { None } else { self.refuse(error) }
     }
 
     fn refuse<T>(&mut self, error: SyntaxError) -> Option<T> {

@@ -18,6 +18,8 @@ pub(super) struct Request {
     pub path: Spanned<String>,
     /// Whether it is imported, not included.
     pub is_import: bool,
+    /// Whether the end of the path was guessed, which was reported.
+    pub is_guessed: bool,
 }
 
 /// Reads a file that an item names, and says which one it became.

@@ -9,10 +9,10 @@ mod texture;
 
 use super::error::Error;
 use super::{Env, Resolver, Value};
-use crate::diag::did_you_mean;
+use crate::diag::{did_you_mean, did_you_mean_one_of, nearest, nearest_of_kind};
 use crate::schema::{self, Area};
 use crate::source::Span;
-use crate::syntax::ast::{Block, Object};
+use crate::syntax::ast::{Block, Entry, Object};
 
 /// Words of other systems for joining solids.
 const CSG: &[&str] = &["difference", "union", "intersection", "merge", "subtract", "csg"];
@@ -100,6 +100,39 @@ impl<'a> Resolver<'a> {
         self.poison(Error::Misplaced { what, place: "alone", used, help })
     }
 
+    /// Looks for mistakes in a block of a misspelt kind, as in one of the kind that it is nearest to.
+    fn misspelt_block(&mut self, object: &'a Object, kind: &str, env: &Env<'a>) {
+        let meant = nearest_of_kind(kind, kinds_for(&object.body)).first().copied();
+        let Some(block) = meant.and_then(schema::block).filter(|block| takes_fields(block, &object.body))
+        else {
+            return;
+        };
+        self.read(block, object.kind.span, &object.body, env);
+        if block.holds_items() {
+            self.members(&object.body, env);
+        }
+    }
+
+    /// What to say of a kind of block that is none: what it is called here, or what is like it and has such fields.
+    fn unknown_block_help(&mut self, object: &Object, kind: &str, env: &Env<'a>) -> Option<String> {
+        if let Some(second) = &object.second {
+            let is_field = schema::blocks().any(|block| block.field(&object.kind).is_some());
+            if is_field && schema::block(second).is_some() {
+                return Some(format!("write `{}: {} {{ .. }}`", object.kind.value, second.value));
+            }
+            if !nearest(&object.kind, ["camera"]).is_empty() {
+                return Some(format!("did you mean `camera {}`?", second.value));
+            }
+        }
+        let place = schema::block("place").expect("declared in the registry");
+        let fits = takes_fields(place, &object.body);
+        let visible = env.visible();
+        let names = visible.iter().map(|definition| (definition.name, fits));
+        let near = nearest_of_kind(kind, kinds_for(&object.body).chain(names));
+        self.proposed.extend(near.iter().map(|&name| name.to_owned()));
+        did_you_mean_one_of(&near)
+    }
+
     /// A block of no known kind. What its fields hold is looked at all the same.
     fn no_such_block(&mut self, object: &'a Object, kind: &str, used: Span, env: &Env<'a>) -> Value<'a> {
         if let Some(block) = schema::block(kind) {
@@ -107,11 +140,12 @@ impl<'a> Resolver<'a> {
         }
         let is_defined = env.find(&object.kind.value).is_some();
         let error = block_error(kind, used, is_defined).unwrap_or_else(|| {
-            let visible = env.visible();
-            let help = self.propose(kind, visible.iter().map(|definition| definition.name));
+            let help = self.unknown_block_help(object, kind, env);
             Error::UnknownBlock { kind: kind.to_owned(), used, help }
         });
-        self.poison(error)
+        self.report(error);
+        self.misspelt_block(object, kind, env);
+        Value::Poison
     }
 }
 
@@ -135,12 +169,13 @@ pub fn block_error(kind: &str, used: Span, is_defined: bool) -> Option<Error> {
         let name = kind.split(' ').next().unwrap_or(kind);
         format!("to put it into the picture, write `place {name} {{ .. }}`")
     } else {
-        unknown_block_help(kind)?
+        foreign_block_help(kind)?
     };
     Some(Error::UnknownBlock { kind: kind.to_owned(), used, help: Some(help) })
 }
 
-fn unknown_block_help(kind: &str) -> Option<String> {
+/// What a block is called here that other programs have, too.
+fn foreign_block_help(kind: &str) -> Option<String> {
     let ours = match kind.to_ascii_lowercase().replace('_', "").as_str() {
         "pointlight" => "light point",
         "spherelight" | "arealight" => "light sphere",
@@ -160,12 +195,25 @@ fn unknown_block_help(kind: &str) -> Option<String> {
     if let Some(block) = schema::block(ours) {
         return Some(format!("it is called `{ours}` here: `{}`", block.example));
     }
-    let kinds = || schema::blocks().map(|block| block.kind);
-    let lights = || kinds().filter(|known| known.starts_with("light "));
-    if kind.starts_with("light") {
+    let lights = || schema::blocks().map(|block| block.kind).filter(|known| known.starts_with("light "));
+    kind.starts_with("light").then(|| {
         let all: Vec<&str> = lights().collect();
-        return did_you_mean(kind, lights())
-            .or_else(|| Some(format!("the lights are {}", schema::quoted(&all))));
-    }
-    did_you_mean(kind, kinds())
+        did_you_mean(kind, lights()).unwrap_or_else(|| format!("the lights are {}", schema::quoted(&all)))
+    })
+}
+
+/// Every kind of block, and whether it takes the fields that are written.
+pub fn kinds_for<'n>(body: &Block) -> impl Iterator<Item = (&'n str, bool)> {
+    schema::blocks().map(|block| (block.kind, takes_fields(block, body)))
+}
+
+/// Whether a kind of block has the fields that are written, or most of them: one may be misspelt as well.
+fn takes_fields(block: &schema::Block, body: &Block) -> bool {
+    let field = |entry: &Entry| match entry {
+        Entry::Field(field) => Some(block.field(&field.name).is_some()),
+        Entry::Item(_) => None,
+    };
+    let (known, unknown): (Vec<bool>, Vec<bool>) =
+        body.entries.iter().filter_map(field).partition(|known| *known);
+    unknown.is_empty() || unknown.len() < known.len()
 }
