@@ -14,6 +14,7 @@ mod laws_photon;
 mod layers;
 mod meaning;
 mod messages;
+mod mutation;
 mod readme;
 mod reference;
 mod robust;
