@@ -129,6 +129,15 @@ impl Builtin {
     pub fn name(&self) -> &'static str {
         self.function.name
     }
+
+    /// What an argument is, where that is known before its value is.
+    pub fn type_of_argument(&self, index: usize) -> Option<Type> {
+        let args = self.function.forms.iter().filter_map(|form| form.get(index));
+        args.into_iter().find_map(|arg| match arg.takes {
+            Takes::Of(ty) => Some(ty),
+            _ => None,
+        })
+    }
 }
 
 impl<'a> Resolver<'a> {

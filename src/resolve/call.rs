@@ -28,16 +28,16 @@ impl<'a> Resolver<'a> {
         };
         match function {
             Value::Builtin(builtin) => {
-                let value = |this: &mut Self, index: usize, arg: &'a Arg| match &arg.value.kind {
-                    ExprKind::Number { value, unit, .. } => {
-                        this.numeral(*value, unit.as_ref(), builtin.type_of_argument(index))
-                    }
-                    _ => this.eval(&arg.value, env),
+                let mut given = |(index, arg): (usize, &'a Arg)| {
+                    let value = match &arg.value.kind {
+                        ExprKind::Number { value, unit, .. } => {
+                            self.numeral(*value, unit.as_ref(), builtin.type_of_argument(index))
+                        }
+                        _ => self.eval(&arg.value, env),
+                    };
+                    (arg.name.as_ref(), Spanned::new(value, arg.value.span))
                 };
-                let given = args.iter().enumerate().map(|(index, arg)| {
-                    (arg.name.as_ref(), Spanned::new(value(self, index, arg), arg.value.span))
-                });
-                let given: Vec<_> = given.collect();
+                let given: Vec<_> = args.iter().enumerate().map(&mut given).collect();
                 self.call_builtin(builtin, given, used)
             }
             Value::Function(function) => self.call_function(&function, args, used, env),

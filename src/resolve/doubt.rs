@@ -2,7 +2,7 @@
 //!
 //! Where evaluation does come, it says more than the text alone shows; so these are kept until it is known where it came.
 
-use super::build::block_error;
+use super::build::{block_error, kinds_for};
 use super::builtin;
 use super::coerce::{is_word_of, unknown_word};
 use super::color;
@@ -10,7 +10,7 @@ use super::error::Error;
 use super::fields::unknown_field_help;
 use super::lint::{Lint, What};
 use super::meant::unknown_unit;
-use crate::diag::did_you_mean;
+use crate::diag::{did_you_mean, did_you_mean_one_of, nearest_of_kind};
 use crate::schema::{self, Type};
 use crate::source::Span;
 use crate::syntax::ast::{Arg, Expr, ExprKind, FileIndex, Function, ItemKind, Name, Object};
@@ -118,9 +118,9 @@ impl<'a> Lint<'a, '_> {
             self.doubt(|this| {
                 let is_defined = this.find(&object.kind).is_some();
                 block_error(&kind, head, is_defined).unwrap_or_else(|| {
-                    let kinds = schema::blocks().map(|block| block.kind);
                     let names = this.scopes.iter().flat_map(|names| names.keys().copied());
-                    let help = did_you_mean(&kind, kinds.chain(names));
+                    let known = kinds_for(&object.body).chain(names.map(|name| (name, false)));
+                    let help = did_you_mean_one_of(&nearest_of_kind(&kind, known));
                     Error::UnknownBlock { kind: kind.clone(), used: head, help }
                 })
             });

@@ -4,7 +4,7 @@ use super::budget::Limit;
 use super::builtin;
 use super::dimension::{Dimension, Quantity, with_unit};
 use super::error::Error;
-use super::meant::Wanted;
+use super::meant::{Wanted, unknown_unit};
 use super::scope::{Kind, Scope};
 use super::{Env, Resolver, Step, Value, color};
 use crate::ir;
@@ -61,7 +61,7 @@ impl<'a> Resolver<'a> {
     /// A number; `wanted` is the type that is expected of it.
     pub(super) fn numeral(&mut self, value: f64, unit: Option<&Name>, wanted: Option<Type>) -> Value<'a> {
         let Some(unit) = unit else { return Value::number(value) };
-        with_unit(value, unit).map_or_else(|| self.unknown_unit(unit, wanted), Value::Number)
+        with_unit(value, unit).map_or_else(|| self.poison(unknown_unit(unit, wanted)), Value::Number)
     }
 
     fn size(&mut self, width: &'a Expr, height: &'a Expr, env: &Env<'a>) -> Value<'a> {

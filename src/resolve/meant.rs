@@ -1,6 +1,6 @@
 //! What a word that nothing knows was meant to be: the nearest that is known, what is of the wanted kind first.
 
-use super::dimension::{Dimension, Quantity};
+use super::dimension::{Dimension, Quantity, with_unit};
 use super::error::Error;
 use super::scope::{Definition, Kind, State};
 use super::{Env, Resolver, Value, builtin};
@@ -83,26 +83,20 @@ impl<'a> Resolver<'a> {
         self.proposed.insert(import.to_owned());
         Some(format!("did you mean `{import}.{name}`?"))
     }
-
-    /// The report of a unit that is none.
-    pub(super) fn unknown_unit(&mut self, unit: &Name, wanted: Option<Type>) -> Value<'a> {
-        self.poison(unknown_unit(unit, wanted))
-    }
 }
 
-/// What to say of a unit that is none; one of the wanted dimension is proposed first.
+/// The report of a unit that is none; one of the wanted dimension is proposed first.
 pub fn unknown_unit(unit: &Name, wanted: Option<Type>) -> Error {
     let dimension = wanted.and_then(dimension_wanted);
-    let known = schema::UNITS
-        .iter()
-        .map(|known| (known.name, dimension.is_none_or(|wanted| Dimension::of(known.of) == Some(wanted))));
+    let fits = |unit: &str| {
+        let quantity = with_unit(1.0, unit);
+        dimension.is_none_or(|wanted| quantity.is_some_and(|quantity| quantity.dimension == wanted))
+    };
+    let known = || schema::UNITS.iter().map(|unit| unit.name);
     let help = spelled_out(unit)
         .map(|short| format!("did you mean `{short}`?"))
-        .or_else(|| did_you_mean_one_of(&nearest_of_kind(unit, known)))
-        .unwrap_or_else(|| {
-            let all: Vec<&str> = schema::UNITS.iter().map(|unit| unit.name).collect();
-            format!("the units are {}", all.join(" "))
-        });
+        .or_else(|| did_you_mean_one_of(&nearest_of_kind(unit, known().map(|name| (name, fits(name))))))
+        .unwrap_or_else(|| format!("the units are {}", known().collect::<Vec<_>>().join(" ")));
     Error::UnknownUnit { unit: unit.value.clone(), used: unit.span, help }
 }
 

@@ -4,7 +4,8 @@
 //! reads best (`plausible.rs`): items begin where a word begins a line without indentation. A text that is not
 //! written so, or too long to try everything, is mended by plain counting.
 
-use super::plausible::oddity;
+use super::edit::{Edit, edits};
+use super::plausible::{UNPAIRED, oddity};
 use super::token::{Kind, Token, closer};
 
 /// A change that makes the brackets pair, and what was wrong.
@@ -24,6 +25,8 @@ pub(super) enum Repair {
 
 /// How many brackets of an item may be mended before it counts as hopeless.
 const MOST_REPAIRS: usize = 4;
+/// How many ways to mend an item are followed at once.
+const BEAM: usize = 4;
 /// How many tokens may be looked at in all: mending stays quick however many items are broken.
 const MOST_LOOKS: usize = 20_000_000;
 
@@ -102,19 +105,17 @@ fn count(text: &[u8], tokens: &[Token]) -> Vec<Repair> {
     repairs
 }
 
-fn closes(close: u8, open: &Token) -> bool {
+/// Whether a bracket closes the one that a token is.
+pub(super) fn closes(close: u8, open: &Token) -> bool {
     matches!(open.kind, Kind::Open(bracket) if closer(bracket) == close)
 }
 
-/// A change of one bracket.
-#[derive(Clone, Copy)]
-enum Edit {
-    /// This bracket comes before the token of this index; within a word, such as `rgb0`, at an offset.
-    Insert { before: usize, bracket: Token, within: bool },
-    /// The token of this index goes.
-    Remove(usize),
-    /// The token of this index becomes this closing bracket.
-    Replace(usize, u8),
+/// An item with some of its brackets mended.
+struct State {
+    tokens: Vec<Token>,
+    repairs: Vec<Repair>,
+    /// What the changes cost, without how odd the item reads now.
+    cost: u32,
 }
 
 /// The search for the changes after which an item reads best.
@@ -125,193 +126,66 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The repairs of an item.
+    /// The repairs of an item: a beam search, since one mistake may make the right cure of another look odd.
     fn mend(&mut self, item: &[Token]) -> Vec<Repair> {
-        let (mut repairs, mut tokens) = (Vec::new(), item.to_vec());
-        loop {
-            let counted = count(self.text, &tokens);
-            let best = if repairs.len() < MOST_REPAIRS { self.best(&tokens, &counted) } else { None };
-            let Some(best) = best else {
-                repairs.extend(counted);
-                return repairs;
+        let mut beam = vec![State { tokens: item.to_vec(), repairs: Vec::new(), cost: 0 }];
+        for _ in 0..MOST_REPAIRS {
+            let is_done = |state: &State| count(self.text, &state.tokens).is_empty();
+            if beam.iter().all(is_done) || !self.may_look(&beam) {
+                break;
+            }
+            beam = self.step(beam);
+        }
+        let best = beam.swap_remove(0);
+        let rest = count(self.text, &best.tokens);
+        best.repairs.into_iter().chain(rest).collect()
+    }
+
+    /// Whether another step is not too much: a bracket may be put in at every place, and each is looked at as a whole.
+    fn may_look(&mut self, beam: &[State]) -> bool {
+        self.looks += beam.iter().map(|state| state.tokens.len().saturating_pow(2)).sum::<usize>();
+        self.looks <= MOST_LOOKS
+    }
+
+    /// The states that read best after one more change of each, the best first.
+    fn step(&mut self, beam: Vec<State>) -> Vec<State> {
+        let mut next: Vec<(u32, usize, Option<Edit>)> = Vec::new();
+        for (index, state) in beam.iter().enumerate() {
+            let edits = edits(self.text, &state.tokens, &count(self.text, &state.tokens));
+            if edits.is_empty() {
+                next.push((state.cost + oddity(self.text, &state.tokens, &self.functions), index, None));
+            }
+            let total = |edit: Edit| {
+                let edited = edit.apply(&state.tokens);
+                state.cost + edit.cost(&state.tokens) + oddity(self.text, &edited, &self.functions)
             };
-            let edited = best.apply(&tokens);
-            repairs.push(best.repair(&tokens, &edited));
-            tokens = edited;
+            // Of equals the last: what is missing is missed late.
+            let edits = edits.into_iter().rev().filter(|edit| edit.pairs(&state.tokens));
+            next.extend(edits.map(|edit| (total(edit), index, Some(edit))));
         }
-    }
-
-    /// The change after which the tokens read best; `None` when nothing is wrong, or too much to look at.
-    fn best(&mut self, tokens: &[Token], counted: &[Repair]) -> Option<Edit> {
-        let edits = edits(self.text, tokens, counted);
-        self.looks += edits.len() * tokens.len();
-        if self.looks > MOST_LOOKS {
-            return None;
+        if next.is_empty() {
+            return beam;
         }
-        let sum = |edit: &Edit| edit.cost(tokens) + oddity(self.text, &edit.apply(tokens), &self.functions);
-        // Of equals the last: what is missing is missed late.
-        edits.into_iter().rev().filter(|edit| edit.pairs(tokens)).min_by_key(sum)
+        next.sort_by_key(|&(total, ..)| total);
+        // A bracket that is replaced mends two mistakes at once: the states that are not whole yet are not to be judged
+        // against such a one.
+        let unfinished = next.partition_point(|&(total, ..)| total < UNPAIRED);
+        let (whole, rest) = next.split_at(unfinished);
+        let best = whole.iter().take(BEAM).chain(rest.iter().take(BEAM)).copied();
+        best.map(|(_, index, edit)| beam[index].after(edit)).collect()
     }
 }
 
-/// The changes that could mend what counting finds.
-fn edits(text: &[u8], tokens: &[Token], counted: &[Repair]) -> Vec<Edit> {
-    let byte = |at: usize| text.get(at).copied().unwrap_or_default();
-    let (mut unclosed, mut unopened) = (Vec::new(), Vec::new());
-    for repair in counted {
-        match *repair {
-            Repair::Close { close, .. } if !unclosed.contains(&close) => unclosed.push(close),
-            Repair::Remove { at } if !unopened.contains(&byte(at)) => unopened.push(byte(at)),
-            _ => {}
-        }
-    }
-    let mut edits = Vec::new();
-    for &close in &unclosed {
-        edits.extend(those(tokens, |token| closes(close, token)).map(Edit::Remove));
-        edits.extend((1..=tokens.len()).map(|before| insert(tokens, before, Kind::Close(close))));
-        for &wrong in &unopened {
-            edits.extend(
-                those(tokens, |token| token.kind == Kind::Close(wrong)).map(|at| Edit::Replace(at, close)),
-            );
-        }
-    }
-    for &close in &unopened {
-        let open = opener(close);
-        edits.extend(those(tokens, |token| token.kind == Kind::Close(close)).map(Edit::Remove));
-        edits.extend((1..tokens.len()).map(|before| insert(tokens, before, Kind::Open(open))));
-        edits.extend((0..tokens.len()).filter_map(|at| within(text, tokens, at, open)));
-    }
-    edits
-}
-
-fn those(tokens: &[Token], is_meant: impl Fn(&Token) -> bool) -> impl Iterator<Item = usize> {
-    tokens.iter().enumerate().filter(move |(_, token)| is_meant(token)).map(|(index, _)| index)
-}
-
-/// A bracket before a token: braces and closing brackets stand right after what precedes them, others before what follows.
-fn insert(tokens: &[Token], before: usize, kind: Kind) -> Edit {
-    let last = tokens[before - 1];
-    let leans_on = match kind {
-        Kind::Open(b'(' | b'[') => tokens[before],
-        _ => last,
-    };
-    let at = if matches!(kind, Kind::Open(b'(' | b'[')) { leans_on.start } else { last.end };
-    let bracket = Token { kind, start: at, end: at, is_first: false, ..leans_on };
-    Edit::Insert { before, bracket, within: false }
-}
-
-/// A bracket inside `rgb0`, which is a name and a number grown together.
-fn within(text: &[u8], tokens: &[Token], at: usize, open: u8) -> Option<Edit> {
-    let token = tokens[at];
-    let digits = text[token.range()].iter().position(u8::is_ascii_digit);
-    let at_digit =
-        token.start + digits.filter(|&offset| token.kind == Kind::Word && offset > 0 && open != b'{')?;
-    let bracket = Token { kind: Kind::Open(open), start: at_digit, end: at_digit, is_first: false, ..token };
-    Some(Edit::Insert { before: at, bracket, within: true })
-}
-
-impl Edit {
-    /// The tokens with this change.
-    fn apply(self, tokens: &[Token]) -> Vec<Token> {
-        let mut edited = tokens.to_vec();
-        match self {
-            Self::Insert { before, bracket, within: false } => edited.insert(before, bracket),
-            Self::Insert { before, bracket, within: true } => {
-                let word = &mut edited[before];
-                let number = Token { kind: Kind::Number, start: bracket.start, is_first: false, ..*word };
-                word.end = bracket.start;
-                edited.splice(before + 1..before + 1, [bracket, number]);
-            }
-            Self::Remove(at) => drop(edited.remove(at)),
-            Self::Replace(at, close) => edited[at].kind = Kind::Close(close),
-        }
-        edited
-    }
-
-    /// Whether what is put in finds a partner.
-    fn pairs(self, tokens: &[Token]) -> bool {
-        match self {
-            Self::Insert { before, within, .. } => {
-                partner(&self.apply(tokens), before + usize::from(within)).is_some()
-            }
-            Self::Replace(at, _) => partner(&self.apply(tokens), at).is_some(),
-            Self::Remove(_) => true,
-        }
-    }
-
-    /// How unlikely the slip is that this mends: a key that was hit twice, or not at all behind a name, comes first.
-    fn cost(self, tokens: &[Token]) -> u32 {
-        let is_glued = |first: usize, second: usize| match (tokens.get(first), tokens.get(second)) {
-            (Some(first), Some(second)) => first.end == second.start,
-            _ => false,
+impl State {
+    /// This state with one more change.
+    fn after(&self, edit: Option<Edit>) -> Self {
+        let Some(edit) = edit else {
+            return Self { tokens: self.tokens.clone(), repairs: self.repairs.clone(), cost: self.cost };
         };
-        let is_twin = |a: usize, b: usize| is_glued(a.min(b), a.max(b)) && tokens[a].kind == tokens[b].kind;
-        match self {
-            Self::Insert { within: true, .. } => 0,
-            Self::Insert { before, bracket, .. } => {
-                let after_name = tokens[before - 1].kind == Kind::Word && is_glued(before - 1, before);
-                u32::from(!(after_name && bracket.kind == Kind::Open(b'(')))
-            }
-            Self::Remove(at) => match is_twin(at, at + 1) || at > 0 && is_twin(at - 1, at) {
-                true => 0,
-                false => 2,
-            },
-            Self::Replace(..) => 1,
-        }
-    }
-
-    /// What this mends.
-    fn repair(self, tokens: &[Token], edited: &[Token]) -> Repair {
-        match self {
-            Self::Insert { before, bracket, within } => {
-                let own = before + usize::from(within);
-                let partner = partner(edited, own).map_or(bracket.start, |partner| edited[partner].start);
-                match bracket.kind {
-                    Kind::Open(open) => Repair::Open { at: bracket.start, open, close: partner },
-                    Kind::Close(close) => Repair::Close { at: bracket.start, open: partner, close },
-                    _ => unreachable!("only brackets are put in"),
-                }
-            }
-            Self::Remove(at) => match tokens[at].kind {
-                Kind::Open(_) => Repair::Doubled { at: tokens[at].start },
-                _ => Repair::Remove { at: tokens[at].start },
-            },
-            Self::Replace(at, close) => {
-                let open = partner(edited, at).map_or(tokens[at].start, |partner| edited[partner].start);
-                Repair::Replace { at: tokens[at].start, open, close }
-            }
-        }
-    }
-}
-
-/// The index of the bracket that pairs with the one at `own`.
-fn partner(tokens: &[Token], own: usize) -> Option<usize> {
-    let step = |token: &Token| match token.kind {
-        Kind::Open(_) => 1,
-        Kind::Close(_) => -1,
-        _ => 0,
-    };
-    let mut depth = 0;
-    let mut is_level = |at: &usize| {
-        depth += step(&tokens[*at]);
-        depth == 0
-    };
-    let found = match tokens[own].kind {
-        Kind::Open(_) => (own..tokens.len()).find(|at| is_level(at)),
-        _ => (0..=own).rev().find(|at| is_level(at)),
-    };
-    found.filter(|&found| match (tokens[own.min(found)].kind, tokens[own.max(found)].kind) {
-        (Kind::Open(open), Kind::Close(close)) => closer(open) == close,
-        _ => false,
-    })
-}
-
-/// The bracket that opens what a closing one closes.
-const fn opener(close: u8) -> u8 {
-    match close {
-        b')' => b'(',
-        b']' => b'[',
-        _ => b'{',
+        let tokens = edit.apply(&self.tokens);
+        let repair = edit.repair(&self.tokens, &tokens);
+        let repairs = self.repairs.iter().copied().chain([repair]).collect();
+        Self { repairs, cost: self.cost + edit.cost(&self.tokens), tokens }
     }
 }
 

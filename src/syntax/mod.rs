@@ -4,6 +4,7 @@ pub mod ast;
 mod balance;
 mod block;
 pub mod dump;
+mod edit;
 mod error;
 mod expr;
 mod file;

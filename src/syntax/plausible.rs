@@ -8,7 +8,7 @@
 use super::token::{Kind, Token, closer};
 
 /// A bracket without partner outweighs everything else.
-const UNPAIRED: u32 = 100;
+pub(super) const UNPAIRED: u32 = 100;
 /// What no scene does.
 const WRONG: u32 = 5;
 /// What a scene hardly does.
@@ -284,6 +284,7 @@ impl Reader<'_> {
         let begins = before.is_none_or(|before| matches!(before.kind, Kind::Open(_)) || before.is(b','));
         self.add(ODD, !begins);
         let is_top = self.open.is_empty();
+        let takes_names = self.open.last().is_some_and(|open| open.takes_names);
         let weight = match self.open.last_mut() {
             None => WRONG,
             Some(open) if open.bracket == b'{' => {
@@ -301,6 +302,8 @@ impl Reader<'_> {
         };
         self.sum += weight;
         self.add(RARE, is_top);
+        // No list of values goes on with a field in a line of its own.
+        self.add(2 * WRONG, !self.in_block() && self.tokens[at].is_first && !takes_names);
     }
 
     fn comma(&mut self, at: usize) {

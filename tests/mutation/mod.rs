@@ -54,3 +54,9 @@ pub fn show(number: usize) -> String {
 fn most_mistakes_are_told_where_they_are_with_their_cure() {
     run(400).assert_good();
 }
+
+#[test]
+fn a_number_stands_for_the_same_mutant_every_time() {
+    assert_eq!(show(17), show(17));
+    assert_ne!(show(17), show(18));
+}

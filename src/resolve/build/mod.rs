@@ -133,6 +133,39 @@ impl<'a> Resolver<'a> {
         self.poison(Error::Misplaced { what, place: "alone", used, help })
     }
 
+    /// Looks for mistakes in a block of a misspelt kind, as in one of the kind that it is nearest to.
+    fn misspelt_block(&mut self, object: &'a Object, kind: &str, env: &Env<'a>) {
+        let meant = nearest_of_kind(kind, kinds_for(&object.body)).first().copied();
+        let Some(block) = meant.and_then(schema::block).filter(|block| takes_fields(block, &object.body))
+        else {
+            return;
+        };
+        self.read(block, object.kind.span, &object.body, env);
+        if block.holds_items() {
+            self.members(&object.body, env);
+        }
+    }
+
+    /// What to say of a kind of block that is none: what it is called here, or what is like it and has such fields.
+    fn unknown_block_help(&mut self, object: &Object, kind: &str, env: &Env<'a>) -> Option<String> {
+        if let Some(second) = &object.second {
+            let is_field = schema::blocks().any(|block| block.field(&object.kind).is_some());
+            if is_field && schema::block(second).is_some() {
+                return Some(format!("write `{}: {} {{ .. }}`", object.kind.value, second.value));
+            }
+            if !nearest(&object.kind, ["camera"]).is_empty() {
+                return Some(format!("did you mean `camera {}`?", second.value));
+            }
+        }
+        let place = schema::block("place").expect("declared in the registry");
+        let fits = takes_fields(place, &object.body);
+        let visible = env.visible();
+        let names = visible.iter().map(|definition| (definition.name, fits));
+        let near = nearest_of_kind(kind, kinds_for(&object.body).chain(names));
+        self.proposed.extend(near.iter().map(|&name| name.to_owned()));
+        did_you_mean_one_of(&near)
+    }
+
     /// A block of no known kind. What its fields hold is looked at all the same.
     fn no_such_block(&mut self, object: &'a Object, kind: &str, used: Span, env: &Env<'a>) -> Value<'a> {
         if let Some(block) = schema::block(kind) {
@@ -203,7 +236,7 @@ fn foreign_block_help(kind: &str) -> Option<String> {
 }
 
 /// Every kind of block, and whether it takes the fields that are written.
-fn kinds_for<'n>(body: &Block) -> impl Iterator<Item = (&'n str, bool)> {
+pub fn kinds_for<'n>(body: &Block) -> impl Iterator<Item = (&'n str, bool)> {
     schema::blocks().map(|block| (block.kind, takes_fields(block, body)))
 }
 
