@@ -105,17 +105,6 @@ pub fn find(name: &str) -> Option<&'static Builtin> {
     BUILTINS.get(name)
 }
 
-impl Builtin {
-    /// What an argument is, where that is known before its value is.
-    pub(super) fn type_of_argument(&self, index: usize) -> Option<Type> {
-        let of = |argument: &Arg| match argument.takes {
-            Takes::Of(ty) => Some(ty),
-            _ => None,
-        };
-        self.function.forms.iter().find_map(|form| form.get(index)).and_then(of)
-    }
-}
-
 /// The names of all functions.
 pub fn names() -> impl Iterator<Item = &'static str> + Clone {
     schema::functions().map(|function| function.name)

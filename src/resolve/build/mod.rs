@@ -88,39 +88,6 @@ impl<'a> Resolver<'a> {
         self.poison(Error::Misplaced { what, place: "where a value is wanted", used, help })
     }
 
-    /// Looks for mistakes in a block of a misspelt kind, as in one of the kind that it is nearest to.
-    fn misspelt_block(&mut self, object: &'a Object, kind: &str, env: &Env<'a>) {
-        let meant = nearest_of_kind(kind, kinds_for(&object.body)).first().copied();
-        let Some(block) = meant.and_then(schema::block).filter(|block| takes_fields(block, &object.body))
-        else {
-            return;
-        };
-        self.read(block, object.kind.span, &object.body, env);
-        if block.holds_items() {
-            self.members(&object.body, env);
-        }
-    }
-
-    /// What to say of a kind of block that is none: what it is called here, or what is like it and has such fields.
-    fn unknown_block_help(&mut self, object: &Object, kind: &str, env: &Env<'a>) -> Option<String> {
-        if let Some(second) = &object.second {
-            let is_field = schema::blocks().any(|block| block.field(&object.kind).is_some());
-            if is_field && schema::block(second).is_some() {
-                return Some(format!("write `{}: {} {{ .. }}`", object.kind.value, second.value));
-            }
-            if !nearest(&object.kind, ["camera"]).is_empty() {
-                return Some(format!("did you mean `camera {}`?", second.value));
-            }
-        }
-        let place = schema::block("place").expect("declared in the registry");
-        let fits = takes_fields(place, &object.body);
-        let visible = env.visible();
-        let names = visible.iter().map(|definition| (definition.name, fits));
-        let near = nearest_of_kind(kind, kinds_for(&object.body).chain(names));
-        self.proposed.extend(near.iter().map(|&name| name.to_owned()));
-        did_you_mean_one_of(&near)
-    }
-
     /// A block that stands in a field of another, outside of it.
     fn misplaced_part(&mut self, block: &schema::Block, owner: &str, used: Span) -> Value<'a> {
         let whole = schema::block(owner).expect("declared in the registry");
