@@ -181,6 +181,7 @@ const PAGES: &[Page] = pages! {
         file_too_large: Error,
         file_unreadable: Error,
         foreign: Error,
+        foreign_comment: Error,
         huge_number: Error,
         include_depth: Error,
         mismatched_bracket: Error,
