@@ -3,6 +3,7 @@
 //! Definitions are evaluated when first needed, and once. A mistake leaves a poisoned value on which everything
 //! that is made of it stays silent, so one mistake gives one report.
 
+mod arguments;
 mod budget;
 mod build;
 mod builtin;
