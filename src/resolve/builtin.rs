@@ -119,7 +119,7 @@ impl Builtin {
     pub fn type_of_argument(&self, index: usize) -> Option<Type> {
         let args = self.function.forms.iter().filter_map(|form| form.get(index));
         args.into_iter().find_map(|arg| match arg.takes {
-            Takes::Of(ty) => Some(ty),
+            schema::Takes::Of(ty) => Some(ty),
             _ => None,
         })
     }
