@@ -82,7 +82,8 @@ impl<'a> Resolver<'a> {
         let value = match &range.kind {
             // Each end is of the parameter's type, so that what is wrong with one points at it.
             ExprKind::Binary { op, left, right }
-                if matches!(op.value, BinaryOp::Range | BinaryOp::RangeInclusive) =>
+                if matches!(op.value, BinaryOp::Range | BinaryOp::RangeInclusive)
+                    && Dimension::of(ty).is_some() =>
             {
                 match (self.eval_as(left, ty, env), self.eval_as(right, ty, env)) {
                     (Value::Number(start), Value::Number(end)) => {
