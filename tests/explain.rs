@@ -36,7 +36,8 @@ fn every_code_has_a_page_and_every_page_a_code() {
     collect_codes(Path::new("src"), &mut codes);
     let paged: BTreeSet<String> = pages().iter().map(|page| page.code.to_owned()).collect();
     assert!(codes.len() > 100, "the codes were not found");
-    assert_eq!(codes, paged);
+    assert_eq!(codes.difference(&paged).collect::<Vec<_>>(), [""; 0], "codes without a page");
+    assert_eq!(paged.difference(&codes).collect::<Vec<_>>(), [""; 0], "pages without a code");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use thiserror::Error;
 #[derive(Clone, Error, Diagnostic, Debug)]
 #[expect(missing_docs, reason = "each variant says itself what it is about")]
 pub enum AllowError {
-    #[error("no warning has the code `{code}`")]
+    #[error("no warning about a scene has the code `{code}`")]
     #[diagnostic(code(snell::allow::unknown_code))]
     UnknownCode {
         code: String,

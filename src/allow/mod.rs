@@ -36,7 +36,8 @@ pub fn doubt_idle(sources: &SourceMap, problems: &mut Problems) {
 
 /// What is wrong with silencing `code`.
 fn error(code: &str, used: Span) -> Option<AllowError> {
-    let meant = find(code);
+    let mut meant = find(code);
+    meant.retain(|page| !is_of_converter(page));
     if meant.iter().any(|page| page.level == Level::Warning) {
         return None;
     }
@@ -44,10 +45,15 @@ fn error(code: &str, used: Span) -> Option<AllowError> {
     if !meant.is_empty() {
         return Some(AllowError::NotAWarning { code, used });
     }
-    let warnings = pages().iter().filter(|page| page.level == Level::Warning);
+    let warnings = pages().iter().filter(|page| page.level == Level::Warning && !is_of_converter(page));
     let name = code.rsplit("::").next().unwrap_or(&code);
     let help = did_you_mean(name, warnings.map(Page::name)).unwrap_or_else(|| {
         "the code stands at the head of the warning; `snell explain` lists them all".to_owned()
     });
     Some(AllowError::UnknownCode { code, used, help })
+}
+
+/// Whether the code is about scenes of another format, in which there is no `allow`.
+fn is_of_converter(page: &Page) -> bool {
+    page.phase() == "convert"
 }
