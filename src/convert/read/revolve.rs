@@ -61,6 +61,11 @@ impl Reader<'_> {
                 "it was read as one curve over all its points; the original wants 4, 7, 10, .. of them";
             self.log.differs(format!("a Bezier curve of {} points", points.len()), &head, help);
         }
+        if points.iter().all(|point| point.0 == 0.0) || points.iter().all(|point| *point == points[0]) {
+            let what = "a profile that makes no surface";
+            self.log.not_convertible(what, &head, "its points lie on the axis, or are all one; left out");
+            return None;
+        }
         self.outward(Profile { kind, points }, &head)
     }
 
