@@ -7,6 +7,8 @@ mod human;
 mod json;
 mod problems;
 mod report;
+#[cfg(test)]
+mod samples;
 mod sarif;
 mod silence;
 mod suggest;

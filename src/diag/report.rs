@@ -120,24 +120,7 @@ impl Severity {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use miette::Diagnostic;
-    use thiserror::Error;
-
-    #[derive(Error, Diagnostic, Debug)]
-    #[error("something is odd")]
-    #[diagnostic(code(snell::test::odd), severity(Warning))]
-    struct Odd {
-        #[label("here")]
-        at: Span,
-    }
-
-    #[derive(Error, Diagnostic, Debug)]
-    #[error("something is wrong")]
-    #[diagnostic(code(snell::test::wrong))]
-    struct Wrong {
-        #[label("here")]
-        at: Span,
-    }
+    use crate::diag::samples::{Odd, Wrong};
 
     fn sources(text: &str) -> SourceMap {
         let mut sources = SourceMap::default();

@@ -80,24 +80,7 @@ fn names(name: &str, code: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use miette::Diagnostic;
-    use thiserror::Error;
-
-    #[derive(Error, Diagnostic, Debug)]
-    #[error("something is odd")]
-    #[diagnostic(code(snell::test::odd), severity(Warning))]
-    struct Odd {
-        #[label("here")]
-        at: Span,
-    }
-
-    #[derive(Error, Diagnostic, Debug)]
-    #[error("something is wrong")]
-    #[diagnostic(code(snell::test::wrong))]
-    struct Wrong {
-        #[label("here")]
-        at: Span,
-    }
+    use crate::diag::samples::{Odd, Wrong};
 
     /// How many problems are left of an odd thing at each offset and something wrong at 5, and which `allow`s were used.
     fn left(offsets: &[u32], allows: &[(&str, u32, u32)]) -> (usize, Vec<bool>) {
