@@ -28,7 +28,7 @@ fn hard_case_01_edges_and_vertices_have_no_gaps() {
             lost_by_naive += usize::from(!found);
         }
     }
-    assert!(lost_by_naive > 100, "the naive test lost only {lost_by_naive} rays: they are aimed too badly");
+    assert!(lost_by_naive > 40, "the naive test lost only {lost_by_naive} rays: they are aimed too badly");
 }
 
 fn escapes(count: usize) -> usize {
@@ -205,10 +205,9 @@ fn hard_case_07_degenerate_triangles_change_nothing() {
     let (positions, triangles) = sphere(6, 10, |_, _| 1.0);
     let text = |faces: &[[u32; 3]]| {
         let vertices = positions.iter().map(|p| format!("v {} {} {}\n", p.x, p.y, p.z));
-        // Three points on a line: a corner, another, and the middle between them.
-        let (a, b) = (positions[2], positions[13]);
-        let middle = (a + b) / 2.0;
-        let line = [2.0 * middle - b, b, middle].map(|p| format!("v {} {} {}\n", p.x, p.y, p.z));
+        // Three points on a line, exactly.
+        let line = [Vec3::ZERO, Vec3::new(0.5, 0.25, -0.75), Vec3::new(1.0, 0.5, -1.5)]
+            .map(|p| format!("v {} {} {}\n", p.x, p.y, p.z));
         let faces = faces.iter().map(|[a, b, c]| format!("f {} {} {}\n", a + 1, b + 1, c + 1));
         vertices.chain(line).chain(faces).collect::<String>()
     };
@@ -231,11 +230,8 @@ fn hard_case_07_degenerate_triangles_change_nothing() {
     let ((clean, quiet), (dirty, report)) = (render(&triangles), render(&faces));
     assert!(clean == dirty, "the degenerate faces changed the picture");
     let dropped = faces.len() - triangles.len();
-    assert!(
-        report.contains(&format!("{dropped} of its faces")) || report.contains(&format!("{dropped} faces")),
-        "{report}"
-    );
-    assert!(!quiet.contains("faces"), "{quiet}");
+    assert!(report.contains(&format!("{dropped} of its triangles have no area")), "{report}");
+    assert_eq!(quiet, "");
 }
 
 /// A point of a grid of 2⁻²⁰ in [−1, 1]³, and the same in whole numbers.
@@ -257,7 +253,7 @@ fn dot(a: [i128; 3], b: [i128; 3]) -> i128 {
 }
 
 /// Case 8: slivers, against whole numbers of 128 bits. An edge function may be decided wrongly only where its exact value
-/// is within its rounding: each of its two products of sheared coordinates is wrong by at most γ(8) of its size.
+/// is within its rounding.
 /// Normals are right to 10⁻⁵ rad; from two long edges in single precision they are not.
 #[test]
 fn hard_case_08_slivers() {
@@ -265,9 +261,10 @@ fn hard_case_08_slivers() {
     let (mut wrong, mut decided, mut worst_normal, mut worst_naive_normal) = (0, 0, 0.0_f64, 0.0_f64);
     for _ in 0..40_000 {
         let ((a, pa), (b, pb)) = (grid_point(&mut random), grid_point(&mut random));
-        // Close to the line from a to b, off it by a step or two of the grid: an aspect of about 10⁶.
+        // Close to the line from a to b, off it by 1 to 2¹⁶ steps of the grid: an aspect of up to 10⁶.
         let s = random.below(1 << 20) as i128;
-        let step = [random.below(3), random.below(3), random.below(3)].map(|x| x as i128 - 1);
+        let width = 1 << random.below(17);
+        let step = [(); 3].map(|()| random.below(2 * width + 1) as i128 - width as i128);
         let c = [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * s / (1 << 20) + step[i]);
         let pc = Vec3::from(c.map(|x| x as f32 / (1 << 20) as f32));
         let exact_normal = cross(minus(b, a), minus(c, a));
@@ -279,18 +276,22 @@ fn hard_case_08_slivers() {
         worst_normal = worst_normal.max(angle(cross_of_edges([pa, pb, pc])));
         worst_naive_normal = worst_naive_normal.max(angle((pb - pa).cross(pc - pa).as_dvec3()));
 
-        // From a point of the grid towards a point of the sliver.
+        // From a point of the grid towards a point within the sliver or beside it.
         let (o, po) = grid_point(&mut random);
-        let at = [a, b, c][random.below(3)];
-        let d = minus([0, 1, 2].map(|i| (at[i] + b[i]) / 2), o);
+        let (i, j) = (random.below(8) as i128, random.below(8) as i128);
+        let beside = [(); 3].map(|()| random.below(2 * width + 1) as i128 - width as i128);
+        let at = [0, 1, 2].map(|k| (a[k] * i + b[k] * j + c[k] * (16 - i - j)) / 16 + beside[k]);
+        let d = minus(at, o);
         let ray = Ray::new(po, Vec3::from(d.map(|x| x as f32 / (1 << 20) as f32)));
         let [u, v, w] = [[c, b], [a, c], [b, a]].map(|[p, q]| dot(d, cross(minus(p, o), minus(q, o))));
         let exact = u >= 0 && v >= 0 && w >= 0 || u <= 0 && v <= 0 && w <= 0;
         let mut found = false;
         TriangleBlock::new(&[([pa, pb, pc], 0)]).intersect(&ShearedRay::new(&ray), |_, _| found = true);
-        // 8 roundings of products as large as the coordinates, in units of the exact value.
-        let bound = 8.0 * 2_f64.powi(-24) * d.iter().map(|x| x.abs()).max().unwrap() as f64 * 2_f64.powi(42);
-        let certain = [u, v, w].iter().all(|&x| x == 0 || (x as f64).abs() > bound);
+        // A sheared coordinate is at most 4 and off by 8 u, so that a difference of two products is off by 180 u; times
+        // the direction's largest component it is the exact value, in units of the grid.
+        let largest = d.iter().map(|x| x.abs()).max().expect("there are three") as f64;
+        let bound = 180.0 * 2_f64.powi(-24) * largest * 2_f64.powi(40);
+        let certain = [u, v, w].iter().all(|&x| (x as f64).abs() > bound);
         decided += usize::from(certain);
         wrong += usize::from(certain && found != exact);
     }
@@ -300,8 +301,9 @@ fn hard_case_08_slivers() {
     assert!(worst_naive_normal > 1e-2, "even the naive normals are good: {worst_naive_normal}");
 }
 
-/// Case 9: two triangles of size 10⁶ around 50,000 of size 10⁻³ (in a cluster of size 1). A ray within the cluster enters
-/// at most 60 cells on the way to its hit, and hits what brute force hits.
+/// Case 9: two triangles of size 10⁶ around 50,000 of size 10⁻³, in a cluster of size 2. A ray within the cluster hits what
+/// brute force hits, and enters at most half as many cells again as without the large ones (what it does not hit in the
+/// cluster it hits there). Halving space, as a naive tree would, takes 60 planes only to arrive at the cluster.
 #[test]
 fn hard_case_09_mixed_scales() {
     let mut random = Random(109);
@@ -314,15 +316,25 @@ fn hard_case_09_mixed_scales() {
     positions.extend([Vec3::new(-1e6, -2.0, -1e6), Vec3::new(1e6, -2.0, -1e6), Vec3::new(0.0, -2.0, 1e6)]);
     positions.extend([Vec3::new(-1e6, 2.0, -1e6), Vec3::new(1e6, 2.0, -1e6), Vec3::new(0.0, 2.0, 1e6)]);
     let mesh = mesh(positions, (0..50_002).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect());
-    let (brute_force, walk) = (BruteForce::new(&mesh), Walk::new(&mesh, conservative_slab));
+    let cluster = Mesh {
+        triangles: mesh.triangles[..50_000].to_vec(),
+        positions: mesh.positions.clone(),
+        ..self::mesh(vec![], vec![])
+    };
+    let brute_force = BruteForce::new(&mesh);
+    let (walk, walk_alone) = (Walk::new(&mesh, conservative_slab), Walk::new(&cluster, conservative_slab));
     let geometry = scene(mesh);
-    let mut steps = 0;
+    let (mut steps, mut steps_alone) = (0, 0);
     for _ in 0..200 {
         let ray = Ray::new(random.point(), random.direction());
         assert_eq!(bits(geometry.closest_hit(&ray)), brute_force.closest_hit(&ray), "{ray:?}");
         steps += walk.steps(&ray);
+        steps_alone += walk_alone.steps(&ray);
     }
-    assert!(steps <= 60 * 200, "{} cells a ray", steps as f64 / 200.0);
+    assert!(
+        2 * steps <= 3 * steps_alone,
+        "{steps} steps for 200 rays, {steps_alone} without the large triangles"
+    );
 }
 
 /// References after splitting every cell in the middle as long as it holds more than 4, 20 deep.
@@ -378,10 +390,10 @@ fn hard_case_10_references_stay_within_their_budget() {
 /// A room with a lamp, a ball, a glass ball and a tilted block. Every length is multiplied by `s` and moved by `shift`.
 const ROOM: &str = "
 snell 1
-param s: float = 1
+param s: number = 1
 param shift: length = 0m
 let u = s * 1m
-fn at(x: float, y: float, z: float) -> vec3 { (x * u + shift, y * u + shift, z * u + shift) }
+fn at(x: number, y: number, z: number) -> point { (x * u + shift, y * u + shift, z * u + shift) }
 camera { position: at(0, 1, 3.5), look_at: at(0, 0.875, 0), fov: 40deg, film: { size: 32 x 32, filter: box(0.5px) } }
 light sphere { center: at(0, 1.75, 0.5), radius: 0.125 * u, radiance: rgb(30, 28, 25) }
 light point { position: at(-0.5, 1.5, 0.75), power: s * s * 3W }

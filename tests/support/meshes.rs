@@ -111,7 +111,7 @@ pub fn closed_meshes() -> Vec<(&'static str, Mesh, Vec3)> {
 
 /// A ray from near `center`, a quarter each: anywhere, at a vertex, at an edge, along an axis through a vertex's coordinate.
 pub fn aimed_ray(mesh: &Mesh, center: Vec3, i: usize, random: &mut Random) -> Ray {
-    let size = (mesh.positions[0] - center).length() * 0.2;
+    let size = (mesh.positions[0] - center).length() * 0.08; // stays within the spiky one too
     let o = center + random.point() * size;
     let [a, b, _] = mesh.corners(mesh.triangles[random.below(mesh.triangles.len())]);
     match i % 4 {
