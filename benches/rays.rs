@@ -31,7 +31,9 @@ fn main() {
     let meshes: Vec<&str> =
         if named.is_empty() { MESHES.to_vec() } else { named.iter().map(String::as_str).collect() };
     let embree = std::env::var_os("EMBREE").map(|library| Embree::compile(library.into()));
-    println!("mesh       by              build s  bytes/tri   camera   bounce   shadow  any to any   (Mrays/s)");
+    println!(
+        "mesh       by              build s  bytes/tri   camera   bounce   shadow  any to any   (Mrays/s)"
+    );
     // One thread builds the tree too, so that its seconds can be compared.
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be started");
     one_thread.install(|| {
@@ -136,7 +138,11 @@ impl Embree {
         let folder = tempfile::tempdir().expect("a temporary folder can be made");
         let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/embree.cpp");
         let mut compiler = Command::new("c++");
-        compiler.args(["-O3", "-march=native", "-o"]).arg(folder.path().join("embree")).arg(source).arg("-ldl");
+        compiler
+            .args(["-O3", "-march=native", "-o"])
+            .arg(folder.path().join("embree"))
+            .arg(source)
+            .arg("-ldl");
         assert!(compiler.status().is_ok_and(|status| status.success()), "{compiler:?} failed");
         Self { library, folder }
     }

@@ -192,13 +192,83 @@ fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
 
 #[test]
 fn no_ray_escapes_a_closed_mesh() {
+    assert_no_ray_escapes(50_000);
+}
+
+#[test]
+#[ignore = "half a minute: 8 × 2 million rays"]
+fn no_ray_of_millions_escapes_a_closed_mesh() {
+    assert_no_ray_escapes(2_000_000);
+}
+
+fn assert_no_ray_escapes(rays: usize) {
     for (name, mesh, center) in closed_meshes() {
         let mut random = Random(2);
-        let rays: Vec<_> = (0..50_000).map(|i| aimed_ray(&mesh, center, i, &mut random)).collect();
-        let geometry = scene(mesh);
-        let escaped = rays.iter().filter(|ray| geometry.closest_hit(ray).is_none()).count();
+        let geometry = scene(mesh.clone());
+        let escaped = (0..rays)
+            .map(|i| aimed_ray(&mesh, center, i, &mut random))
+            .filter(|ray| geometry.closest_hit(ray).is_none())
+            .count();
         assert_eq!(escaped, 0, "{name}");
     }
+}
+
+#[test]
+fn vector_registers_change_no_bit() {
+    assert_twins_agree(20_000);
+}
+
+#[test]
+#[ignore = "half a minute: 8 × 1 million rays"]
+fn vector_registers_change_no_bit_of_millions() {
+    assert_twins_agree(1_000_000);
+}
+
+/// The code for any processor and that for the one at hand, hit by hit.
+fn assert_twins_agree(rays: usize) {
+    let whole =
+        |hit: Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.prim, hit.uv.to_array().map(f32::to_bits)));
+    for (name, mesh, center) in closed_meshes() {
+        let mut random = Random(27);
+        let (fast, portable) = (scene(mesh.clone()), scene(mesh.clone()).without_simd());
+        for i in 0..rays {
+            let ray = aimed_ray(&mesh, center, i, &mut random);
+            let ray = Ray { o: ray.o + Vec3::splat((i % 3) as f32) * (ray.o - center), ..ray };
+            let (hit, twin) = (fast.closest_hit(&ray), portable.closest_hit(&ray));
+            assert_eq!(whole(hit), whole(twin), "{name}: {ray:?}");
+            let t_max = hit.map_or(1.0, |hit| hit.t) * if i % 2 == 0 { 0.9 } else { 1.1 };
+            let segment = Ray { t_max, ..ray };
+            assert_eq!(fast.any_hit(&segment), portable.any_hit(&segment), "{name}: {segment:?}");
+        }
+    }
+}
+
+#[test]
+fn any_number_of_threads_builds_the_same_tree() {
+    use snell::render::accel::{Items, build::Cell, partition};
+    fn describe(cell: &Cell, out: &mut Vec<u32>) {
+        let bounds = cell.bounds();
+        out.extend(bounds.min.to_array().into_iter().chain(bounds.max.to_array()).map(f32::to_bits));
+        match cell {
+            Cell::Inner { children, .. } => children.iter().for_each(|child| describe(child, out)),
+            Cell::Leaf { items, .. } => out.extend(items),
+        }
+    }
+    let mut random = Random(28);
+    let triangles: Vec<_> = (0..10_000)
+        .map(|_| {
+            let center = random.point();
+            [0; 3].map(|_| center + random.point() * 0.1)
+        })
+        .collect();
+    let built_by = |threads| {
+        let pool =
+            rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
+        let mut words = Vec::new();
+        pool.install(|| describe(&partition(&Items { triangles: &triangles, boxes: &[] }).root, &mut words));
+        words
+    };
+    assert_eq!(built_by(1), built_by(4));
 }
 
 #[test]

@@ -19,6 +19,7 @@ pub struct SourceId(pub u32);
 /// Triangles that share vertices, in world space.
 ///
 /// The geometric normal of a triangle is `(b − a) × (c − a)`: counter-clockwise seen from outside.
+#[derive(Clone)]
 pub struct Mesh {
     /// Vertex positions, in metres. Finite.
     pub positions: Vec<Vec3>,
