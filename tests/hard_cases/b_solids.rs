@@ -128,8 +128,6 @@ fn hard_case_21_planes_edge_on() {
 
 /// A transform of random scales from 10⁻⁴ to 10⁴, turned and moved.
 fn random_transform(random: &mut Random) -> DAffine3 {
-    let scale = || 0.0;
-    let _ = scale;
     let size = 10_f64.powf(f64::from(random.unit()) * 8.0 - 4.0);
     let stretch = random.point().as_dvec3() * 0.4 + 1.0;
     let axis = random.direction().as_dvec3().normalize();

@@ -1,6 +1,6 @@
 //! Section C: leaving a surface.
 
-use crate::laws::worlds::{camera, emissive, empty, quad, trace};
+use crate::laws::worlds::{camera, empty, quad, trace};
 use crate::support::*;
 use snell::math::{Ray, Rgb, Vec3};
 use snell::render::bsdf::Material;
@@ -111,5 +111,4 @@ fn hard_case_26_shadow_rays_end_before_the_light() {
     }
     assert_eq!(blocked, 0);
     assert!(blocked_by_naive > 100, "the closed segment is blocked only {blocked_by_naive} times");
-    let _ = emissive;
 }
