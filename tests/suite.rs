@@ -9,6 +9,7 @@ mod doubts;
 mod explain;
 mod format;
 mod fuzz;
+mod generate;
 mod laws;
 mod laws_geometry;
 mod laws_photon;
