@@ -10,6 +10,7 @@ mod explain;
 mod format;
 mod fuzz;
 mod hard_cases;
+mod generate;
 mod laws;
 mod laws_geometry;
 mod laws_photon;
