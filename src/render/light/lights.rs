@@ -6,7 +6,6 @@ use super::{AliasTable, Light, LightEnd, LightSample, Sky, Viewpoint};
 use crate::math::{Rgb, Vec2, Vec3};
 use crate::render::bsdf::{Emission, Materials};
 use crate::render::geometry::{Geometry, PrimId, SurfacePoint};
-use crate::render::shape::SolidKind;
 use rustc_hash::FxHashMap;
 
 /// The lights of a world.
@@ -278,7 +277,7 @@ fn shining_prims(geometry: &Geometry, materials: &Materials) -> Vec<PrimId> {
     let solids = geometry
         .solid_prims()
         .filter(|(solid, _)| shines(solid.material))
-        .filter(|(solid, _)| matches!(solid.kind, SolidKind::Sphere | SolidKind::Disk))
+        .filter(|(solid, _)| solid.kind.can_be_sampled())
         .map(|(_, prim)| prim);
     triangles.chain(solids).collect()
 }
