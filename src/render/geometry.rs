@@ -3,7 +3,7 @@
 mod sampling;
 mod surface;
 
-pub use sampling::{AreaSample, DirectionSample};
+pub use sampling::{AreaSample, DirectionSample, Outline};
 
 use super::accel::{Items, Wide, partition};
 use super::shape::solid::{PlacedSolid, SolidHit};

@@ -75,6 +75,14 @@ impl LobeSample {
 }
 
 impl Lobe {
+    /// Whether light may go through the surface: so unless it is known to be otherwise.
+    pub fn transmits(&self) -> bool {
+        !matches!(
+            self,
+            Self::Lambert { .. } | Self::Phong { .. } | Self::Conductor { .. } | Self::Mirror { .. }
+        )
+    }
+
     /// The lobe that scatters nothing.
     pub(super) const NONE: Self = Self::Lambert { albedo: Rgb::BLACK };
 

@@ -113,6 +113,11 @@ impl Bsdf {
         self
     }
 
+    /// Whether light may come through the surface.
+    pub fn transmits(&self) -> bool {
+        self.lobes().iter().any(Lobe::transmits)
+    }
+
     /// Whether any lobe scatters into more than one direction.
     pub fn is_smooth(&self) -> bool {
         self.lobes().iter().any(|lobe| !lobe.is_specular())
