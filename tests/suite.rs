@@ -20,4 +20,5 @@ mod readme;
 mod reference;
 mod robust;
 mod robust_syntax;
+mod silhouettes;
 mod snapshots;
