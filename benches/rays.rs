@@ -1,65 +1,188 @@
-//! How fast rays are: millions a second on one thread, over two families of meshes.
+//! How fast rays are: millions a second on one thread, over two families of meshes; Embree beside it in the same run.
 //!
-//! `cargo bench --bench rays [-- MESH..]`, with meshes such as `blob10k`, `blob1m` or `soup100k`.
+//! `[EMBREE=path/to/libembree4.so.4] cargo bench --bench rays [-- MESH..]`, with meshes such as `blob10k` or `soup100k`.
 //!
 //! `blob` is a sphere displaced by a sum of sines, `soup` unordered triangles. Rays are, in this order: through the
 //! pixels of a picture of 1024 × 1024; cosine-distributed bounces from where those meet the mesh, in their order; the
 //! same as shadow rays; and rays from anywhere to anywhere in the box around the mesh, whose order says nothing.
+//!
+//! Times are those of the thread alone, the best of five runs. Embree (its library comes with `pip install embreex`)
+//! gets the same rays through `benches/embree.cpp`, which needs a C++ compiler: once as it is by default, once with its
+//! robust flag, both with AVX2, where it is faster than with AVX-512 on the machines at hand. The last line of each mesh
+//! holds our rates divided by those of robust Embree, our seconds to build by those of its build that splits space
+//! (with the robust flag it divides objects only), and our memory by its.
 
+use rustix::time::{ClockId, clock_gettime};
 use snell::math::{DAffine3, Ray, Vec3};
 use snell::render::geometry::Geometry;
 use snell::render::shape::{MaterialId, Mesh, SourceId};
 use std::f64::consts::{FRAC_PI_4, TAU};
-use std::time::Instant;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// Meshes that are traced unless others are named.
 const MESHES: [&str; 4] = ["blob10k", "blob100k", "blob1m", "soup1m"];
+/// Runs of which the best counts.
+const RUNS: usize = 5;
 
 fn main() {
     let named: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
     let meshes: Vec<&str> =
         if named.is_empty() { MESHES.to_vec() } else { named.iter().map(String::as_str).collect() };
-    println!("mesh       triangles   build s  bytes/tri   camera   bounce   shadow  any to any   (Mrays/s)");
-    for name in meshes {
-        match mesh(name) {
-            Some(mesh) => measure(name, mesh),
-            None => eprintln!("`{name}` is no mesh of this benchmark"),
+    let embree = std::env::var_os("EMBREE").map(|library| Embree::compile(library.into()));
+    println!(
+        "mesh       by              build s  bytes/tri   camera   bounce   shadow  any to any   (Mrays/s)"
+    );
+    // One thread builds the tree too, so that its seconds can be compared.
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be started");
+    one_thread.install(|| {
+        for name in meshes {
+            match mesh(name) {
+                Some(mesh) => measure(name, mesh, embree.as_ref()),
+                None => eprintln!("`{name}` is no mesh of this benchmark"),
+            }
         }
+    });
+}
+
+/// What a row of the table says.
+struct Row {
+    build: f64,
+    bytes: f64,
+    /// Millions of rays a second, by set.
+    speed: [f64; 4],
+    hits: [usize; 4],
+}
+
+impl Row {
+    fn print(&self, mesh: &str, by: &str, triangles: usize) {
+        let [camera, bounce, shadow, anywhere] = self.speed;
+        println!(
+            "{mesh:10} {by:14} {:8.2} {:10.0} {camera:8.2} {bounce:8.2} {shadow:8.2} {anywhere:11.2}",
+            self.build,
+            self.bytes / triangles as f64,
+        );
     }
 }
 
-fn measure(name: &str, mesh: Mesh) {
+fn measure(name: &str, mesh: Mesh, embree: Option<&Embree>) {
     let triangles = mesh.triangles.len();
-    let (min, max) = mesh
-        .positions
-        .iter()
-        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(min, max), p| (min.min(*p), max.max(*p)));
-    let start = Instant::now();
+    let (positions, indices) = (mesh.positions.clone(), mesh.triangles.clone());
+    let start = thread_seconds();
     let geometry = Geometry::build(vec![mesh], Vec::new());
-    let build = start.elapsed().as_secs_f64();
+    let build = thread_seconds() - start;
 
-    let camera = camera_rays(min, max);
-    let bounces = bounce_rays(&geometry, &camera, (max - min).length());
-    let anywhere = any_rays(min, max);
+    let bounds = geometry.bounds();
+    let camera = camera_rays(bounds.min, bounds.max);
+    let bounces = bounce_rays(&geometry, &camera, bounds.size().length());
+    let anywhere = any_rays(bounds.min, bounds.max);
+    let sets = [&camera, &bounces, &bounces, &anywhere];
     let closest = |ray: &Ray| geometry.closest_hit(ray).is_some();
+    let timed = [
+        timed(&camera, closest),
+        timed(&bounces, closest),
+        timed(&bounces, |ray| geometry.any_hit(ray)),
+        timed(&anywhere, closest),
+    ];
+    let ours = Row {
+        build,
+        bytes: geometry.tree_bytes() as f64,
+        speed: timed.map(|(speed, _)| speed),
+        hits: timed.map(|(_, hits)| hits),
+    };
+    ours.print(name, "snell", triangles);
+    let Some(embree) = embree else { return };
+    embree.write(&positions, &indices, sets).expect("the rays can be written");
+    let split = embree.run("");
+    split.print("", "embree", triangles);
+    let robust = embree.run("robust");
+    robust.print("", "embree robust", triangles);
+    let [camera, bounce, shadow, anywhere] = [0, 1, 2, 3].map(|set| ours.speed[set] / robust.speed[set]);
+    let missed = [0, 1, 2, 3].map(|set| ours.hits[set] as i64 - robust.hits[set] as i64);
     println!(
-        "{name:9} {triangles:10} {build:9.2} {:10.0} {:8.2} {:8.2} {:8.2} {:11.2}",
-        geometry.tree_bytes() as f64 / triangles as f64,
-        speed(&camera, closest),
-        speed(&bounces, closest),
-        speed(&bounces, |ray| geometry.any_hit(ray)),
-        speed(&anywhere, closest),
+        "{:10} {:14} {:7.2}x {:9.2}x {camera:7.2}x {bounce:7.2}x {shadow:7.2}x {anywhere:10.2}x   hits that Embree lacks: {missed:?}",
+        "",
+        "ratio",
+        ours.build / split.build,
+        ours.bytes / robust.bytes,
     );
 }
 
-/// Millions of rays a second, the best of four runs.
-fn speed(rays: &[Ray], trace: impl Fn(&Ray) -> bool) -> f64 {
-    let run = |_| {
-        let start = Instant::now();
-        std::hint::black_box(rays.iter().filter(|ray| trace(ray)).count());
-        rays.len() as f64 / start.elapsed().as_secs_f64() * 1e-6
+/// Millions of rays a second, the best of several runs; and how many hit.
+fn timed(rays: &[Ray], trace: impl Fn(&Ray) -> bool) -> (f64, usize) {
+    let mut hits = 0;
+    let mut run = || {
+        let start = thread_seconds();
+        hits = std::hint::black_box(rays.iter().filter(|ray| trace(ray)).count());
+        rays.len() as f64 / (thread_seconds() - start) * 1e-6
     };
-    (0..4).map(run).fold(0.0, f64::max)
+    let speed = (0..RUNS).map(|_| run()).fold(0.0, f64::max);
+    (speed, hits)
+}
+
+/// What this thread has used of its processor, in seconds.
+fn thread_seconds() -> f64 {
+    let now = clock_gettime(ClockId::ThreadCPUTime);
+    now.tv_sec as f64 + now.tv_nsec as f64 * 1e-9
+}
+
+/// The program that traces the same rays with Embree.
+struct Embree {
+    library: PathBuf,
+    folder: tempfile::TempDir,
+}
+
+impl Embree {
+    fn compile(library: PathBuf) -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder can be made");
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/embree.cpp");
+        let mut compiler = Command::new("c++");
+        compiler
+            .args(["-O3", "-march=native", "-o"])
+            .arg(folder.path().join("embree"))
+            .arg(source)
+            .arg("-ldl");
+        assert!(compiler.status().is_ok_and(|status| status.success()), "{compiler:?} failed");
+        Self { library, folder }
+    }
+
+    /// Writes the file that the program reads.
+    fn write(&self, positions: &[Vec3], triangles: &[[u32; 3]], sets: [&Vec<Ray>; 4]) -> std::io::Result<()> {
+        let mut file = std::io::BufWriter::new(std::fs::File::create(self.folder.path().join("rays"))?);
+        let counts = [positions.len(), triangles.len()].into_iter().chain(sets.map(Vec::len));
+        for count in counts {
+            file.write_all(&(count as u32).to_le_bytes())?;
+        }
+        let mut words = |words: &[f32]| words.iter().try_for_each(|x| file.write_all(&x.to_le_bytes()));
+        positions.iter().try_for_each(|p| words(&p.to_array()))?;
+        words(&[0.0])?;
+        triangles.iter().flatten().try_for_each(|index| file.write_all(&index.to_le_bytes()))?;
+        let mut words = |words: &[f32]| words.iter().try_for_each(|x| file.write_all(&x.to_le_bytes()));
+        sets.into_iter().flatten().try_for_each(|ray| {
+            words(&ray.o.to_array())?;
+            words(&ray.d.to_array())
+        })?;
+        file.flush()
+    }
+
+    fn run(&self, flags: &str) -> Row {
+        let flags = if flags == "robust" { "4" } else { "0" };
+        let mut program = Command::new(self.folder.path().join("embree"));
+        program.arg(&self.library).arg(self.folder.path().join("rays"));
+        let output = program.args(["threads=1,max_isa=avx2", flags]).output().expect("the program starts");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let words: Vec<f64> = String::from_utf8_lossy(&output.stdout)
+            .split_whitespace()
+            .map(|word| word.parse().expect("the program prints numbers"))
+            .collect();
+        Row {
+            build: words[0],
+            bytes: words[1],
+            speed: [0, 1, 2, 3].map(|set| words[2 + 2 * set]),
+            hits: [0, 1, 2, 3].map(|set| words[3 + 2 * set] as usize),
+        }
+    }
 }
 
 /// `blob100k`: a family, and about how many triangles.

@@ -25,6 +25,7 @@ pub mod render;
 pub mod resolve;
 pub mod schema;
 pub mod source;
+pub mod study;
 pub mod syntax;
 
 use check::Checked;

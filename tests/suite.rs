@@ -15,6 +15,7 @@ mod laws_photon;
 mod layers;
 mod meaning;
 mod messages;
+mod metrics;
 mod mutation;
 mod readme;
 mod reference;

@@ -48,6 +48,22 @@ impl Check<'_> {
                     self.near("a corner of this triangle", *corner);
                 }
             }
+            ShapeKind::Cone { base, axis, radius, top_radius, .. } => {
+                self.cone(*base, *axis, *radius, *top_radius, shape.span);
+            }
+            ShapeKind::Torus { center, normal, radius, tube } => {
+                self.positive("the radius of this torus", *radius, Type::Length);
+                self.positive("the radius of its tube", *tube, Type::Length);
+                self.direction("the normal of this torus", *normal);
+                self.near("the centre of this torus", Spanned::new(*center, shape.span));
+                self.near("the radius of this torus", radius.map(DVec3::splat));
+                if tube.value >= radius.value && radius.value > 0.0 {
+                    let (found, what) = (Type::Length.write(tube.value), "the radius of its tube");
+                    let range = format!("less than its `radius`, {}", Type::Length.write(radius.value));
+                    let example = Type::Length.write(radius.value / 4.0);
+                    self.report(CheckError::OutOfRange { what, found, range, example, used: tube.span });
+                }
+            }
             ShapeKind::Mesh { scale, .. } => self.positive("the scale of this mesh", *scale, Type::Number),
             ShapeKind::Revolve { profile, method } => {
                 self.profile(profile);
@@ -64,6 +80,36 @@ impl Check<'_> {
                 }
             }
         }
+    }
+
+    fn cone(
+        &mut self,
+        base: DVec3,
+        axis: Spanned<DVec3>,
+        radius: Spanned<f64>,
+        top_radius: Option<Spanned<f64>>,
+        written: Span,
+    ) {
+        match top_radius {
+            None => self.positive("the radius of this cylinder", radius, Type::Length),
+            Some(top) => {
+                self.positive("the radius of this cone", radius, Type::Length);
+                if top.value < 0.0 {
+                    let (found, range) = (Type::Length.write(top.value), "at least 0m".to_owned());
+                    let (what, example) = ("the radius of its top", "top_radius: 0m".to_owned());
+                    self.report(CheckError::OutOfRange { what, found, range, example, used: top.span });
+                }
+            }
+        }
+        if axis.value == DVec3::ZERO {
+            let what =
+                format!("this {} has no height", if top_radius.is_some() { "cone" } else { "cylinder" });
+            let help = "move `top` away from `base`; for something flat use a `disk`";
+            self.report(CheckError::Degenerate { what, used: axis.span, help });
+        }
+        self.near("the bottom of this shape", Spanned::new(base, written));
+        self.near("the top of this shape", axis.map(|axis| base + axis));
+        self.near("the radius of this shape", radius.map(DVec3::splat));
     }
 
     fn box_shape(&mut self, min: Spanned<DVec3>, max: Spanned<DVec3>) {

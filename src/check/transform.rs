@@ -51,6 +51,8 @@ fn has_volume(kind: &ShapeKind) -> bool {
     match kind {
         ShapeKind::Sphere { .. }
         | ShapeKind::Box { .. }
+        | ShapeKind::Cone { .. }
+        | ShapeKind::Torus { .. }
         | ShapeKind::Mesh { .. }
         | ShapeKind::Revolve { .. }
         | ShapeKind::Extrude { .. } => true,

@@ -4,6 +4,7 @@
 
 mod args;
 mod check;
+mod compare;
 mod convert;
 mod doc;
 mod explain;
@@ -40,6 +41,8 @@ enum Command {
     Fmt(fmt::FmtArgs),
     /// Show what a scene calls for: its effects, why, and the method
     Plan(plan::PlanArgs),
+    /// Measure how far a picture is from another, and whether noise explains it
+    Compare(compare::CompareArgs),
     /// Turn an arsenal.txt scene into a .snell scene
     Convert(convert::ConvertArgs),
     /// Explain a word of the language, or list what a scene defines
@@ -57,6 +60,8 @@ pub enum Exit {
     Done,
     /// The scene is wrong.
     SceneWrong,
+    /// A picture is further from the truth than allowed.
+    OverLimit,
     /// Wrong usage, or a file that cannot be read or written.
     Usage,
     /// Interrupted; what there was has been written.
@@ -67,7 +72,7 @@ impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {
         match exit {
             Exit::Done => Self::SUCCESS,
-            Exit::SceneWrong => Self::from(1),
+            Exit::SceneWrong | Exit::OverLimit => Self::from(1),
             Exit::Usage => Self::from(2),
             Exit::Interrupted => Self::from(130),
         }
@@ -81,6 +86,7 @@ pub fn run() -> ExitCode {
         Command::Check(args) => check::run(&args),
         Command::Fmt(args) => fmt::run(&args),
         Command::Plan(args) => plan::run(&args),
+        Command::Compare(args) => compare::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Doc(args) => doc::run(&args),
         Command::Explain(args) => explain::run(&args),
@@ -93,6 +99,12 @@ pub fn run() -> ExitCode {
 fn fail(reason: impl std::fmt::Display) -> Exit {
     note(format_args!("error: {reason}\n"));
     Exit::Usage
+}
+
+/// A bar of a height in [0, 1], as one character.
+fn spark(height: f64) -> char {
+    const BARS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
+    BARS[((height * 8.0) as usize).min(7)]
 }
 
 /// Writes to standard error. A pipe closed early is no reason to stop.

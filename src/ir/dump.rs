@@ -170,6 +170,20 @@ fn shape_kind(kind: &ShapeKind) -> String {
         ShapeKind::Mesh { file, scale, smooth, skip_missing } => {
             format!("mesh \"{}\" scale {} smooth {smooth:?} skip {skip_missing}", file.value, scale.value)
         }
+        ShapeKind::Cone { base, axis, radius, top_radius, caps } => {
+            let top = top_radius.map_or(String::new(), |top| format!(" top {}", number(top.value)));
+            let open = if *caps { "" } else { " open" };
+            let (base, axis) = (point(*base), point(axis.value));
+            format!("cone {base} axis {axis} radius {}{top}{open}", number(radius.value))
+        }
+        ShapeKind::Torus { center, normal, radius, tube } => {
+            let (center, normal) = (point(*center), point(normal.value));
+            format!(
+                "torus {center} normal {normal} radius {} tube {}",
+                number(radius.value),
+                number(tube.value)
+            )
+        }
         ShapeKind::Revolve { profile, method } => {
             let method = match method {
                 RevolveMethod::Exact => "exact".to_owned(),

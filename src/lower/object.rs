@@ -7,7 +7,7 @@ use super::{Lowering, curve};
 use crate::ir::{self, Object, RevolveMethod, ShapeKind};
 use crate::load::LoadedMesh;
 use crate::math::{DAffine3, DMat3, DVec2, DVec3};
-use crate::render::shape::{MaterialId, Mesh, Profile, Solid, SolidKind, SourceId};
+use crate::render::shape::{Frustum, MaterialId, Mesh, Profile, Solid, SolidKind, SourceId, Torus};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -33,15 +33,19 @@ impl Lowering<'_> {
         match form {
             Form::Parts(mesh, scale, smooth) => self.parts(object, &mesh, scale, smooth, written, source),
             Form::Exact { kind, object_from_solid } => {
-                let area = exact_area(&kind, &(object.world_from_object * object_from_solid));
-                let material = self.material(written, area);
                 let move_to_center = DAffine3::from_translation(-self.center);
-                let world_from_object = move_to_center * object.world_from_object * object_from_solid;
-                let texture_from_object = object_from_solid;
-                self.solids.push(Solid { kind, world_from_object, texture_from_object, material, source });
+                let mut solid = Solid {
+                    kind,
+                    world_from_object: move_to_center * object.world_from_object * object_from_solid,
+                    texture_from_object: object_from_solid,
+                    material: MaterialId(0),
+                    source,
+                };
+                solid.material = self.material(written, || solid.area());
+                self.solids.push(solid);
             }
             Form::Triangles(triangles) => {
-                let material = self.material(written, area(&triangles, &object.world_from_object));
+                let material = self.material(written, || area(&triangles, &object.world_from_object));
                 self.mesh(&triangles, &object.world_from_object, material, source);
             }
         }
@@ -83,6 +87,17 @@ impl Lowering<'_> {
             ShapeKind::Box { min, max } => Form::Triangles(Triangles::cuboid(min.value, max.value)),
             ShapeKind::Triangle { corners } => {
                 Form::Triangles(Triangles::triangle(corners.map(|corner| corner.value)))
+            }
+            ShapeKind::Cone { base, axis, radius, top_radius, caps } => {
+                let top = top_radius.unwrap_or(*radius).value;
+                let (base_radius, height) = (radius.value, axis.value.length());
+                let frustum = Frustum { base: base_radius, top, height, caps: *caps };
+                let object_from_solid = ir::shape::upright(axis.value, *base);
+                Form::Exact { kind: SolidKind::Frustum(frustum), object_from_solid }
+            }
+            ShapeKind::Torus { center, normal, radius, tube } => {
+                let kind = SolidKind::Torus(Torus { major: radius.value, minor: tube.value });
+                Form::Exact { kind, object_from_solid: ir::shape::upright(normal.value, *center) }
             }
             ShapeKind::Mesh { scale, smooth, .. } => {
                 Form::Parts(self.loaded.mesh(object.shape)?.clone(), scale.value, *smooth)
@@ -137,7 +152,7 @@ impl Lowering<'_> {
             let triangles = Triangles::part(part, scale, smooth);
             let material = match (written, part.material) {
                 (None, Some(index)) => self.materials.of_model(mesh, index),
-                _ => self.material(written, area(&triangles, &object.world_from_object)),
+                _ => self.material(written, || area(&triangles, &object.world_from_object)),
             };
             self.mesh(&triangles, &object.world_from_object, material, source);
         }
@@ -171,10 +186,11 @@ impl Lowering<'_> {
         self.meshes.push(Mesh { positions, triangles, normals, uvs, material, object_from_world, source });
     }
 
-    fn material(&mut self, written: Option<ir::Handle<ir::Material>>, area: f64) -> MaterialId {
+    /// The material of a shape with this area, which only a lamp asks for.
+    fn material(&mut self, written: Option<ir::Handle<ir::Material>>, area: impl Fn() -> f64) -> MaterialId {
         match written {
             Some(handle) => {
-                self.materials.of_scene(handle, &|brightness, color| radiance(brightness, color, area))
+                self.materials.of_scene(handle, &|brightness, color| radiance(brightness, color, area()))
             }
             None => self.materials.gray(),
         }
@@ -222,18 +238,4 @@ fn area(shape: &Triangles, world_from_object: &DAffine3) -> f64 {
         (b - a).cross(c - a).length()
     };
     shape.indices.iter().map(double).sum::<f64>() / 2.0
-}
-
-/// The area of an exact shape, in m²; ellipsoids by Thomsen's approximation (within 1.1 %); endless for planes.
-fn exact_area(kind: &SolidKind, world_from_solid: &DAffine3) -> f64 {
-    let m = world_from_solid.matrix3;
-    match kind {
-        SolidKind::Disk => PI * m.x_axis.cross(m.y_axis).length(),
-        SolidKind::Sphere => {
-            const P: f64 = 1.6075; // Thomsen 2004
-            let [a, b, c] = [m.x_axis, m.y_axis, m.z_axis].map(|axis| libm::pow(axis.length(), P));
-            4.0 * PI * libm::pow((a * b + a * c + b * c) / 3.0, 1.0 / P)
-        }
-        SolidKind::Plane | SolidKind::Revolve(_) => f64::INFINITY,
-    }
 }

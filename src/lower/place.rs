@@ -10,11 +10,21 @@ pub type Extent = Option<(DVec3, DVec3)>;
 /// The smallest box along the axes that is known to hold an object; endless planes have none.
 pub fn object_bounds(object: &Object, loaded: &Loaded<'_>) -> Extent {
     let (min, max) = shape_bounds(object, loaded)?;
-    let corners = (0..8).map(|i| {
+    extent(corners(min, max).map(|corner| object.world_from_object.transform_point3(corner)))
+}
+
+fn corners(min: DVec3, max: DVec3) -> impl Iterator<Item = DVec3> {
+    (0..8).map(move |i| {
         let pick = |bit: u32, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
         DVec3::new(pick(0, min.x, max.x), pick(1, min.y, max.y), pick(2, min.z, max.z))
-    });
-    extent(corners.map(|corner| object.world_from_object.transform_point3(corner)))
+    })
+}
+
+/// The box of a profile turned about the y axis.
+fn turned_bounds(profile: &Curve) -> Extent {
+    let (min, max) = curve_bounds(profile)?;
+    let reach = max.x.max(-min.x);
+    Some((DVec3::new(-reach, min.y, -reach), DVec3::new(reach, max.y, reach)))
 }
 
 /// The middle of all that is bounded.
@@ -48,11 +58,12 @@ fn shape_bounds(object: &Object, loaded: &Loaded<'_>) -> Extent {
             let positions = model.parts.iter().flat_map(|part| &part.positions);
             extent(positions.map(|p| p.as_dvec3() * scale.value))
         }
-        ShapeKind::Revolve { profile, .. } => {
-            let (min, max) = curve_bounds(profile)?;
-            let reach = max.x.max(-min.x);
-            Some((DVec3::new(-reach, min.y, -reach), DVec3::new(reach, max.y, reach)))
+        kind @ (ShapeKind::Cone { .. } | ShapeKind::Torus { .. }) => {
+            let turned = kind.turned()?;
+            let (min, max) = turned_bounds(&turned.profile)?;
+            extent(corners(min, max).map(|corner| turned.object_from_profile.transform_point3(corner)))
         }
+        ShapeKind::Revolve { profile, .. } => turned_bounds(profile),
         ShapeKind::Extrude { outline, depth, .. } => {
             let (min, max) = curve_bounds(outline)?;
             Some((min.extend(0.0), max.extend(depth.value)))

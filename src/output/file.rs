@@ -149,15 +149,8 @@ pub fn encode(
 ) -> io::Result<()> {
     let (width, height) = (frame.width, frame.height);
     match format {
-        Format::Png => {
-            let bytes = display.develop(&frame.radiance).concat();
-            PngEncoder::new(out)
-                .write_image(&bytes, width, height, ExtendedColorType::Rgb8)
-                .map_err(io::Error::other)
-        }
-        Format::Ppm => {
-            write!(out, "P6\n{width} {height}\n255\n")?;
-            out.write_all(&display.develop(&frame.radiance).concat())
+        Format::Png | Format::Ppm => {
+            write_display(out, format, (width, height), &display.develop(&frame.radiance))
         }
         Format::Exr => exr::encode(out, frame),
         Format::Hdr => {
@@ -166,6 +159,35 @@ pub fn encode(
             HdrEncoder::new(out).encode(&pixels, width as usize, height as usize).map_err(io::Error::other)
         }
     }
+}
+
+/// A file of display values, `width × height`: PNG, or PPM where the format says so.
+///
+/// # Errors
+/// Whatever the writer says.
+pub fn encode_display(
+    format: Format,
+    (width, height): (u32, u32),
+    pixels: &[[u8; 3]],
+) -> io::Result<Vec<u8>> {
+    let mut out = Vec::new();
+    write_display(&mut out, format, (width, height), pixels)?;
+    Ok(out)
+}
+
+fn write_display(
+    out: &mut impl Write,
+    format: Format,
+    (width, height): (u32, u32),
+    pixels: &[[u8; 3]],
+) -> io::Result<()> {
+    if format == Format::Ppm {
+        write!(out, "P6\n{width} {height}\n255\n")?;
+        return out.write_all(pixels.as_flattened());
+    }
+    PngEncoder::new(out)
+        .write_image(pixels.as_flattened(), width, height, ExtendedColorType::Rgb8)
+        .map_err(io::Error::other)
 }
 
 fn unwritable(path: &Path, reason: impl ToString) -> OutputError {

@@ -1,10 +1,12 @@
-//! Film → files: tone, formats, and files that are whole or not there.
+//! Film → files, and files back: tone, formats, and files that are whole or not there.
 
 mod exr;
 mod file;
+mod read;
 pub mod tone;
 
-pub use file::{Format, OutputError, Target, encode, replace};
+pub use file::{Format, OutputError, Target, encode, encode_display, replace};
+pub use read::{Picture, ReadError, decode, is_linear, read};
 pub use tone::{Display, Exposure, Tone};
 
 use crate::math::Rgb;

@@ -11,6 +11,16 @@ pub enum Exposure {
     Auto,
 }
 
+impl Exposure {
+    /// What brings radiance to the display: radiance times this is shown.
+    pub fn factor(self, radiance: &[Rgb]) -> f32 {
+        match self {
+            Self::Ev(ev) => float::pow(2.0, ev),
+            Self::Auto => auto_factor(radiance),
+        }
+    }
+}
+
 /// Tone curves.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Tone {
@@ -38,10 +48,7 @@ pub struct Display {
 impl Display {
     /// Display values of linear radiance.
     pub fn develop(&self, radiance: &[Rgb]) -> Vec<[u8; 3]> {
-        let factor = match self.exposure {
-            Exposure::Ev(ev) => float::pow(2.0, ev),
-            Exposure::Auto => auto_factor(radiance),
-        };
+        let factor = self.exposure.factor(radiance);
         let half = if self.floor { 0.0 } else { 0.5 };
         let quantise = |color: Rgb| color.to_array().map(|x| (x * 255.0 + half) as u8);
         radiance.iter().map(|&pixel| quantise(self.tone.curve(pixel * factor))).collect()

@@ -90,6 +90,13 @@ impl Geometry {
         Self { meshes, first_prims, solids, tree, unbounded }
     }
 
+    /// The same geometry, traced by the code for any processor. It gives the same bits, only later.
+    #[must_use]
+    pub fn without_simd(mut self) -> Self {
+        self.tree.without_simd();
+        self
+    }
+
     /// A box that holds everything but the planes; empty when there is nothing.
     pub fn bounds(&self) -> Bounds {
         self.tree.bounds()
@@ -142,7 +149,7 @@ impl Geometry {
         for &solid in &self.unbounded {
             nearest.offer(self.hit_solid(solid, ray));
         }
-        self.tree.trace::<false>(ray, &mut nearest, |solid, ray| self.hit_solid(solid, ray));
+        self.tree.trace::<false>(ray, &mut nearest, |solid| self.hit_solid(solid, ray));
         nearest.hit
     }
 
@@ -155,7 +162,7 @@ impl Geometry {
             return true;
         }
         let mut nearest = Nearest { t: ray.t_max, hit: None };
-        self.tree.trace::<true>(ray, &mut nearest, |solid, ray| self.hit_solid(solid, ray));
+        self.tree.trace::<true>(ray, &mut nearest, |solid| self.hit_solid(solid, ray));
         nearest.hit.is_some()
     }
 

@@ -1,6 +1,6 @@
 //! Objects. Each has its own frame; `transform` leads out of it.
 
-use super::{Area, Block, Field, Range, Type, field, one_of};
+use super::{Area, Block, Choice, Field, Range, Type, field, one_of};
 
 /// What every object takes.
 pub(super) const COMMON: &[Field] = &[
@@ -54,6 +54,44 @@ const TRIANGLE: &[Field] = &[
         .like("(1m, 0m, 0m)"),
     field("c", Type::Point, "The last.").required().like("(0m, 1m, 0m)"),
 ];
+
+const CAPS: Field = field("caps", Type::Bool, "Whether flat ends close it.").or_bool(true);
+const BASE: Field = field("base", Type::Point, "The middle of its bottom.").or_triple(0.0, 0.0, 0.0);
+const TOP: Field = field("top", Type::Point, "The middle of its top.").like("(0m, 1m, 0m)");
+const HEIGHT: Field =
+    field("height", Type::Length, "How far up it reaches, instead of `top`.").within(SIZE).like("1m");
+
+const CYLINDER: &[Field] = &[
+    BASE,
+    TOP,
+    HEIGHT,
+    field("radius", Type::Length, "From its axis to its side.").required().within(SIZE),
+    CAPS,
+];
+
+const CONE: &[Field] = &[
+    BASE,
+    TOP,
+    HEIGHT,
+    field("radius", Type::Length, "The radius of its bottom.").required().within(SIZE),
+    field("top_radius", Type::Length, "The radius of its top; 0 is a tip.")
+        .or(0.0)
+        .within(Range::at_least(0.0).physical()),
+    CAPS,
+];
+
+const TORUS: &[Field] = &[
+    field("center", Type::Point, "Its middle.").or_triple(0.0, 0.0, 0.0),
+    field("normal", Type::Vector, "What it goes around.").or_triple(0.0, 1.0, 0.0),
+    field("radius", Type::Length, "From its middle to the middle of its tube.").required().within(SIZE),
+    field("tube", Type::Length, "The radius of the tube, less than `radius`.")
+        .required()
+        .within(SIZE)
+        .like("5cm"),
+];
+
+/// How far along its axis a cylinder or cone reaches.
+const REACH: &[Choice] = &[one_of(&[&["top"], &["height"]])];
 
 const MESH: &[Field] = &[
     field("file", Type::Text, "An OBJ file, beside the scene.").required().like("\"teapot.obj\""),
@@ -115,6 +153,9 @@ pub(super) const BLOCKS: &[Block] = &[
         "One triangle.",
         "triangle { a: (0m, 0m, 0m), b: (1m, 0m, 0m), c: (0m, 1m, 0m) }",
     ),
+    shape("cylinder", CYLINDER, "A round column.", "cylinder { height: 1m, radius: 30cm }").choosing(REACH),
+    shape("cone", CONE, "A cone, pointed or cut off.", "cone { height: 1m, radius: 30cm }").choosing(REACH),
+    shape("torus", TORUS, "A ring.", "torus { center: (0m, 1m, 0m), radius: 30cm, tube: 5cm }"),
     shape("mesh", MESH, "Triangles from a file.", "mesh { file: \"teapot.obj\", scale: 0.01 }"),
     shape(
         "revolve",

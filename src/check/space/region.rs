@@ -36,17 +36,24 @@ impl Region {
             ShapeKind::Box { min, max } => Extent { min: min.value, max: max.value }.hull(),
             ShapeKind::Triangle { corners } => Self::Hull(corners.map(|corner| corner.value).to_vec()),
             ShapeKind::Mesh { .. } => mesh()?.hull(),
-            ShapeKind::Revolve { profile, .. } => {
-                let (min, max) = control_box(profile)?;
-                let reach = max.x.max(-min.x);
-                let (min, max) = (DVec3::new(-reach, min.y, -reach), DVec3::new(reach, max.y, reach));
-                Extent { min, max }.hull()
+            ShapeKind::Cone { .. } | ShapeKind::Torus { .. } => {
+                let turned = kind.turned()?;
+                Self::of_profile(&turned.profile)?.moved(&turned.object_from_profile)
             }
+            ShapeKind::Revolve { profile, .. } => Self::of_profile(profile)?,
             ShapeKind::Extrude { outline, depth, .. } => {
                 let (min, max) = control_box(outline)?;
                 Extent { min: min.extend(0.0), max: max.extend(depth.value) }.hull()
             }
         })
+    }
+
+    /// The region of a profile turned about the y axis.
+    pub(super) fn of_profile(profile: &Curve) -> Option<Self> {
+        let (min, max) = control_box(profile)?;
+        let reach = max.x.max(-min.x);
+        let (min, max) = (DVec3::new(-reach, min.y, -reach), DVec3::new(reach, max.y, reach));
+        Some(Extent { min, max }.hull())
     }
 
     /// The region of a light in the world; `None` for what shines from infinitely far.

@@ -58,6 +58,7 @@ impl Solid {
         world_from_object: &DAffine3,
         mesh: impl FnOnce() -> Option<Rc<Surface>>,
     ) -> Option<Self> {
+        let mut own_region = None;
         let (form, object_from_own, extent) = match kind {
             ShapeKind::Sphere { center, radius } => {
                 let placed = DAffine3::from_scale_rotation_translation(
@@ -75,6 +76,11 @@ impl Solid {
             ShapeKind::Revolve { profile, .. } => {
                 (Form::Turned(Loop::of_profile(profile)?), DAffine3::IDENTITY, None)
             }
+            ShapeKind::Cone { .. } | ShapeKind::Torus { .. } => {
+                let turned = kind.turned()?;
+                own_region = Region::of_profile(&turned.profile);
+                (Form::Turned(Loop::of_profile(&turned.profile)?), turned.object_from_profile, None)
+            }
             ShapeKind::Extrude { outline, holes, depth } => {
                 let holes = holes.iter().map(Loop::of_outline).collect::<Option<Vec<_>>>()?;
                 let form = Form::Drawn { outline: Loop::of_outline(outline)?, holes, depth: depth.value };
@@ -91,7 +97,7 @@ impl Solid {
         let region = match &form {
             Form::Ball => Region::Round { center: DVec3::ZERO, axes: crate::math::DMat3::IDENTITY },
             Form::Cube => Extent { min: DVec3::NEG_ONE, max: DVec3::ONE }.hull(),
-            _ => Region::of_shape(kind, || extent)?,
+            _ => own_region.or_else(|| Region::of_shape(kind, || extent))?,
         };
         let extent = region.moved(&world_from_own).extent();
         Some(Self { form, own_from_world: world_from_own.inverse(), extent })

@@ -1,20 +1,24 @@
-//! Splitting space: the kd partition that minimises the expected price of a ray.
+//! The partition that minimises the expected price of a ray: space is split, or objects are divided, whichever is cheaper.
 //!
-//! Large cells choose among evenly spaced planes; below a few thousand references the exact sweep takes over, whose
-//! sorted events are handed down rather than sorted again (Wald, Havran 2006). References that straddle a plane are
-//! clipped to both sides. A cell whose share of the reference budget is used up is divided by objects instead, so the
-//! memory of any scene is linear in its size. Subtrees are independent of each other: any number of threads builds the same tree.
+//! Where the boxes of two sets of objects would overlap, planes that split space are tried too; references that straddle
+//! such a plane are clipped to both sides, as in a kd-tree (Stich, Friedrich, Dietrich 2009). Duplicates have a budget,
+//! so the memory of any scene is linear in its size. Subtrees are independent of each other: any number of threads
+//! builds the same tree.
 
-use super::clip::clip;
-use super::sah::{self, Split};
+use super::clip;
+use super::objects::{self, ObjectSplit};
+use super::sah::{self, TRAVERSAL_COST};
+use super::spatial::{self, SpatialSplit};
+use super::wide::MAX_BLOCKS;
 use crate::math::{Bounds, Vec3};
 use crate::render::shape::triangle::LANES;
-use std::cmp::Ordering;
 
-/// Below this many references a cell is split by the exact sweep.
-const EXACT_BELOW: usize = 4096;
 /// Below this many references a subtree is built on one thread.
 const PARALLEL_ABOVE: usize = 2048;
+/// Planes are tried where two sets of objects share at least this part of the area of everything (Stich et al. 2009, section 4.5),
+const OVERLAP_OF_ALL: f64 = 1e-5;
+/// and at least this part of the area of their own cell: less is the width of a triangle, which no plane makes smaller.
+const OVERLAP_OF_CELL: f64 = 0.3;
 
 /// What the tree is built over: triangles first, then boxes of solids.
 pub struct Items<'a> {
@@ -36,9 +40,12 @@ impl Items<'_> {
         }
     }
 
-    /// The box around the part of an item that lies in `cell`.
-    fn clip(&self, item: u32, cell: Bounds) -> Bounds {
-        self.triangles.get(item as usize).map_or(cell, |corners| clip(*corners, cell))
+    /// The boxes around the parts of an item, of which `bounds` holds what counts, on both sides of a plane.
+    pub fn split(&self, item: u32, bounds: Bounds, axis: usize, position: f32) -> [Bounds; 2] {
+        match self.triangles.get(item as usize) {
+            Some(corners) => clip::split(*corners, bounds, axis, position),
+            None => bounds.split(axis, position),
+        }
     }
 }
 
@@ -51,33 +58,11 @@ pub struct Reference {
     pub item: u32,
 }
 
-/// The order in which the sweep counts faces at the same place.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum EventKind {
-    /// A box ends.
-    End,
-    /// A box without thickness.
-    Planar,
-    /// A box begins.
-    Start,
-}
-
-/// A face of a reference's box, orthogonal to the axis whose list it is in.
-#[derive(Clone, Copy, Debug)]
-pub struct Event {
-    /// Where it cuts the axis.
-    pub position: f32,
-    /// The reference, by its place in its cell.
-    pub reference: u32,
-    /// Which face.
-    pub kind: EventKind,
-}
-
-impl Event {
-    /// By position, then kind; by place last, so that the order is total.
-    fn order(&self, other: &Self) -> Ordering {
-        let key = |event: &Self| (event.kind, event.reference);
-        self.position.total_cmp(&other.position).then_with(|| key(self).cmp(&key(other)))
+impl Reference {
+    /// Twice the coordinate of the middle of its box.
+    #[inline(always)]
+    pub fn twice_center(&self, axis: usize) -> f32 {
+        self.bounds.min[axis] + self.bounds.max[axis]
     }
 }
 
@@ -99,58 +84,12 @@ pub enum Cell {
     },
 }
 
-/// The whole partition.
-pub struct Partition {
-    /// The cell of everything.
-    pub root: Cell,
-    /// The box around everything.
-    pub bounds: Bounds,
-}
-
-/// The deepest that a tree over `count` items may become.
-pub fn depth_limit(count: usize) -> usize {
-    8 + (1.3 * f64::from(count.max(1).ilog2() + 1)) as usize + 6
-}
-
-/// The most references that a tree over `count` items may hold.
-pub fn reference_limit(count: usize) -> usize {
-    8 * count + 1000
-}
-
-/// Splits space for `items`.
-pub fn partition(items: &Items) -> Partition {
-    let count = items.count();
-    let references: Vec<_> =
-        (0..count as u32).map(|item| Reference { bounds: items.bounds(item), item }).collect();
-    let bounds = references.iter().fold(Bounds::EMPTY, |all, reference| all.union(reference.bounds));
-    let task = Task {
-        cell: bounds,
-        references,
-        events: None,
-        depth_left: depth_limit(count),
-        budget: reference_limit(count),
-    };
-    let root = task.build(items);
-    Partition { root, bounds }
-}
-
 impl Cell {
     /// The box around the parts of all items that lie in the cell; empty when there are none.
     pub fn bounds(&self) -> Bounds {
         match self {
             Self::Inner { bounds, .. } | Self::Leaf { bounds, .. } => *bounds,
         }
-    }
-
-    /// Builds two tasks, at the same time if they are large, under one node.
-    fn join([low, high]: [Task; 2], build: impl Fn(Task) -> Self + Sync) -> Self {
-        let children = if low.references.len() + high.references.len() > PARALLEL_ABOVE {
-            rayon::join(|| build(low), || build(high))
-        } else {
-            (build(low), build(high))
-        };
-        let bounds = children.0.bounds().union(children.1.bounds());
-        Self::Inner { children: Box::new(children.into()), bounds }
     }
 
     /// Inner nodes on the longest way down.
@@ -170,187 +109,179 @@ impl Cell {
     }
 }
 
-/// A cell to be split.
-struct Task {
-    cell: Bounds,
-    references: Vec<Reference>,
-    /// Sorted faces along each axis, once the cell is small enough for the exact sweep.
-    events: Option<[Vec<Event>; 3]>,
-    depth_left: usize,
-    /// The most references that the leaves below may hold together.
-    budget: usize,
+/// The whole partition.
+pub struct Partition {
+    /// The cell of everything.
+    pub root: Cell,
+    /// The box around everything.
+    pub bounds: Bounds,
 }
 
-impl Task {
-    fn build(mut self, items: &Items) -> Cell {
-        let count = self.references.len();
-        if count <= 1 || self.depth_left == 0 {
-            return self.leaf();
+/// The deepest that a tree over `count` items may become.
+pub fn depth_limit(count: usize) -> usize {
+    8 + (1.3 * f64::from(count.max(1).ilog2() + 1)) as usize + 6
+}
+
+/// The most references that a tree over `count` items may hold.
+pub fn reference_limit(count: usize) -> usize {
+    2 * count + 1000
+}
+
+/// Finds a partition for `items`.
+pub fn partition(items: &Items) -> Partition {
+    let count = items.count();
+    let mut references: Vec<_> =
+        (0..count as u32).map(|item| Reference { bounds: items.bounds(item), item }).collect();
+    let bounds = bounds_of(&references);
+    let builder = Builder { items, area: bounds.half_area() };
+    let spare = reference_limit(count) - count;
+    let root =
+        builder.build(Task { references: &mut references, bounds, depth_left: depth_limit(count), spare });
+    Partition { root, bounds }
+}
+
+fn bounds_of(references: &[Reference]) -> Bounds {
+    references.iter().fold(Bounds::EMPTY, |all, reference| all.union(reference.bounds))
+}
+
+/// A cell to be split.
+struct Task<'a> {
+    references: &'a mut [Reference],
+    bounds: Bounds,
+    depth_left: usize,
+    /// How many more references there may be in the leaves below.
+    spare: usize,
+}
+
+struct Builder<'a> {
+    items: &'a Items<'a>,
+    /// Of the box around everything.
+    area: f64,
+}
+
+/// The cheapest way to split a cell.
+enum Split {
+    Objects(ObjectSplit),
+    Space(SpatialSplit),
+}
+
+impl Builder<'_> {
+    fn build(&self, task: Task) -> Cell {
+        let count = task.references.len();
+        if count <= 1 {
+            return leaf(task.references, task.bounds);
         }
-        let split = self.choose_split();
-        if split.cost >= sah::leaf_cost(count) {
-            return self.leaf();
+        // What is too much for a leaf is halved over and over where no more than the needed levels are left.
+        let fits = self.fits_a_leaf(task.references);
+        if task.depth_left <= count.ilog2() as usize + 1 {
+            return if fits { leaf(task.references, task.bounds) } else { self.halve(task) };
         }
-        let sides: Vec<_> = self.references.iter().map(|reference| Side::of(reference, &split)).collect();
-        let straddling = sides.iter().filter(|side| **side == Side::Both).count();
-        if count + straddling > self.budget {
-            return self.divide_objects();
+        let area = task.bounds.half_area();
+        let price_of_leaf = if fits { area * sah::leaf_cost(count) } else { f64::INFINITY };
+        match self.choose(&task) {
+            Some((split, cost)) if cost + area * TRAVERSAL_COST < price_of_leaf => self.divide(task, &split),
+            _ if fits => leaf(task.references, task.bounds),
+            _ => self.halve(task),
         }
-        let tasks = self.divide_space(items, &split, &sides);
-        drop((self, sides));
-        Cell::join(tasks, |task| task.build(items))
     }
 
-    fn choose_split(&mut self) -> Split {
-        if self.references.len() >= EXACT_BELOW {
-            return sah::binned(self.cell, &self.references);
+    fn fits_a_leaf(&self, references: &[Reference]) -> bool {
+        let is_solid = |reference: &&Reference| reference.item as usize >= self.items.triangles.len();
+        let count = references.len();
+        count <= MAX_BLOCKS * LANES
+            && (self.items.boxes.is_empty() || references.iter().filter(is_solid).count() <= 1)
+    }
+
+    /// The cheapest split and its price, without that of choosing a side; `None` where nothing tells the items apart.
+    fn choose(&self, task: &Task) -> Option<(Split, f64)> {
+        let objects = objects::divide(task.references);
+        let shared = objects.map_or(f64::INFINITY, |split| split.overlap().half_area());
+        let enough = (self.area * OVERLAP_OF_ALL).max(task.bounds.half_area() * OVERLAP_OF_CELL);
+        let space = (task.spare > 0 && shared >= enough)
+            .then(|| spatial::best(self.items, task.references, task.bounds))
+            .flatten();
+        match (objects, space) {
+            (Some(objects), Some(space)) if objects.cost <= space.cost => {
+                Some((Split::Objects(objects), objects.cost))
+            }
+            (_, Some(space)) => Some((Split::Space(space), space.cost)),
+            (Some(objects), None) => Some((Split::Objects(objects), objects.cost)),
+            (None, None) => None,
         }
-        let references = &self.references;
-        let events = self
-            .events
-            .get_or_insert_with(|| [0, 1, 2].map(|axis| sorted_events((0..).zip(references), axis)));
-        sah::sweep(self.cell, references.len(), events)
     }
 
-    fn leaf(self) -> Cell {
-        let bounds = self.references.iter().fold(Bounds::EMPTY, |all, reference| all.union(reference.bounds));
-        let mut items: Vec<_> = self.references.iter().map(|reference| reference.item).collect();
-        items.sort_unstable();
-        Cell::Leaf { items, bounds }
-    }
-
-    /// Both sides of a plane; what straddles it goes to both, clipped.
-    fn divide_space(&self, items: &Items, split: &Split, sides: &[Side]) -> [Task; 2] {
-        let [low, high] = self.cell.split(split.axis, split.position);
-        let mut below = self.half(items, sides, Side::Below, low);
-        let mut above = self.half(items, sides, Side::Above, high);
-        // What the budget leaves for more duplicates is shared in proportion.
-        let (low, high) = (below.references.len(), above.references.len());
-        let spare = (self.budget - low - high) as u128;
-        below.budget = low + (spare * low as u128 / (low + high) as u128) as usize;
-        above.budget = self.budget - below.budget;
-        [below, above]
-    }
-
-    /// What reaches one side of the plane, with its faces still sorted.
-    fn half(&self, items: &Items, sides: &[Side], wanted: Side, cell: Bounds) -> Task {
-        let mut references = Vec::with_capacity(sides.len());
-        let mut clipped = Vec::new();
-        // The place of each reference that is here whole, for the events that it keeps.
-        let mut places = vec![u32::MAX; sides.len()];
-        for ((reference, side), place) in self.references.iter().zip(sides).zip(&mut places) {
-            if *side == wanted {
-                *place = references.len() as u32;
-                references.push(*reference);
-            } else if *side == Side::Both {
-                let bounds = items.clip(reference.item, reference.bounds.intersection(cell));
-                clipped.push(references.len() as u32);
-                references.push(Reference { bounds, item: reference.item });
+    fn divide(&self, task: Task, split: &Split) -> Cell {
+        match split {
+            Split::Objects(split) => {
+                let border = partition_in_place(task.references, |reference| split.is_below(reference));
+                let bounds = split.sides.map(|side| side.bounds);
+                let (below, above) = task.references.split_at_mut(border);
+                self.join([below, above], bounds, task.depth_left, task.spare)
+            }
+            Split::Space(split) => {
+                let mut halves = split.divide(self.items, task.references, task.spare);
+                let fresh = (halves[0].len() + halves[1].len()) - task.references.len();
+                if halves.iter().any(|half| half.is_empty()) {
+                    return self.halve(task);
+                }
+                let bounds = [bounds_of(&halves[0]), bounds_of(&halves[1])];
+                let [below, above] = &mut halves;
+                self.join([below, above], bounds, task.depth_left, task.spare - fresh)
             }
         }
-        let events = self.events.as_ref().map(|events| {
-            [0, 1, 2].map(|axis| {
-                let fresh = sorted_events(clipped.iter().map(|&i| (i, &references[i as usize])), axis);
-                let mut kept = still_here(&events[axis], &places);
-                merge(&mut kept, &fresh);
-                kept
-            })
-        });
-        Task { cell, references, events, depth_left: self.depth_left - 1, budget: 0 }
     }
 
-    /// Two halves of the objects in the same space, where the SAH over boxes of objects wants it.
-    fn divide_objects(self) -> Cell {
-        let count = self.references.len();
-        if count <= LANES || self.depth_left == 0 {
-            return self.leaf();
-        }
-        let Some(split) = sah::divide_objects(&self.references) else { return self.leaf() };
-        if split.cost >= sah::leaf_cost(count) {
-            return self.leaf();
-        }
-        let (below, above): (Vec<_>, Vec<_>) =
-            self.references.into_iter().partition(|reference| split.is_below(reference));
-        let tasks = [below, above].map(|references| Task {
-            cell: self.cell,
-            references,
-            events: None,
-            depth_left: self.depth_left - 1,
-            budget: 0,
-        });
-        Cell::join(tasks, Task::divide_objects)
+    /// Two halves of as many references each, whatever lies where.
+    fn halve(&self, task: Task) -> Cell {
+        let middle = task.references.len() / 2;
+        let (below, above) = task.references.split_at_mut(middle);
+        let bounds = [bounds_of(below), bounds_of(above)];
+        self.join([below, above], bounds, task.depth_left, 0)
     }
-}
 
-/// Where a reference goes.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Below,
-    Above,
-    Both,
-}
-
-impl Side {
-    fn of(reference: &Reference, split: &Split) -> Self {
-        let (min, max) = (reference.bounds.min[split.axis], reference.bounds.max[split.axis]);
-        let planar = min == split.position && max == split.position;
-        if planar && !split.planar_below {
-            Self::Above
-        } else if max <= split.position {
-            Self::Below
-        } else if min >= split.position {
-            Self::Above
+    /// Builds two halves, at the same time if they are large, under one node.
+    fn join(
+        &self,
+        [below, above]: [&mut [Reference]; 2],
+        bounds: [Bounds; 2],
+        depth_left: usize,
+        spare: usize,
+    ) -> Cell {
+        // What the budget leaves for duplicates is shared in proportion.
+        let count = below.len() + above.len();
+        let spare_below = (spare as u128 * below.len() as u128 / count as u128) as usize;
+        let depth_left = depth_left - 1;
+        let low = Task { references: below, bounds: bounds[0], depth_left, spare: spare_below };
+        let high = Task { references: above, bounds: bounds[1], depth_left, spare: spare - spare_below };
+        let children = if count > PARALLEL_ABOVE {
+            rayon::join(|| self.build(low), || self.build(high))
         } else {
-            Self::Both
-        }
+            (self.build(low), self.build(high))
+        };
+        let bounds = bounds[0].union(bounds[1]);
+        Cell::Inner { children: Box::new(children.into()), bounds }
     }
 }
 
-/// The faces of references, with their places, along an axis, in the order of the sweep.
-fn sorted_events<'a>(references: impl Iterator<Item = (u32, &'a Reference)>, axis: usize) -> Vec<Event> {
-    let mut events = Vec::with_capacity(references.size_hint().0 * 2);
-    for (place, reference) in references {
-        let (min, max) = (reference.bounds.min[axis], reference.bounds.max[axis]);
-        let event = |position, kind| Event { position, reference: place, kind };
-        if min == max {
-            events.push(event(min, EventKind::Planar));
-        } else {
-            events.push(event(min, EventKind::Start));
-            events.push(event(max, EventKind::End));
-        }
-    }
-    events.sort_unstable_by(Event::order);
-    events
+fn leaf(references: &[Reference], bounds: Bounds) -> Cell {
+    let mut items: Vec<_> = references.iter().map(|reference| reference.item).collect();
+    items.sort_unstable();
+    Cell::Leaf { items, bounds }
 }
 
-/// The faces of the references that have a place, which they take on.
-fn still_here(events: &[Event], places: &[u32]) -> Vec<Event> {
-    let mut kept = events.to_vec();
-    let mut count = 0;
-    // Each event is written, and only the count depends on its fate: which is next cannot be predicted.
-    for i in 0..kept.len() {
-        let event = kept[i];
-        let reference = places[event.reference as usize];
-        kept[count] = Event { reference, ..event };
-        count += usize::from(reference != u32::MAX);
-    }
-    kept.truncate(count);
-    kept
-}
-
-/// Merges sorted faces into others, from the last to the first.
-fn merge(kept: &mut Vec<Event>, fresh: &[Event]) {
-    let (mut i, mut j) = (kept.len(), fresh.len());
-    kept.extend_from_slice(fresh);
-    let mut slot = kept.len();
-    while j > 0 {
-        slot -= 1;
-        if i > 0 && kept[i - 1].order(&fresh[j - 1]).is_gt() {
-            kept[slot] = kept[i - 1];
-            i -= 1;
-        } else {
-            kept[slot] = fresh[j - 1];
-            j -= 1;
+/// Moves what `is_below` to the front; returns how many those are.
+fn partition_in_place(references: &mut [Reference], is_below: impl Fn(&Reference) -> bool) -> usize {
+    let (mut low, mut high) = (0, references.len());
+    loop {
+        while low < high && is_below(&references[low]) {
+            low += 1;
         }
+        while low < high && !is_below(&references[high - 1]) {
+            high -= 1;
+        }
+        if low == high {
+            return low;
+        }
+        references.swap(low, high - 1);
     }
 }

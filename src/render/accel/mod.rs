@@ -3,7 +3,13 @@
 pub mod build;
 mod clip;
 mod collapse;
+mod kernel;
+mod objects;
 mod sah;
+#[cfg(target_arch = "x86_64")]
+mod simd;
+mod spatial;
+mod walk;
 pub mod wide;
 
 pub use build::{Items, partition};

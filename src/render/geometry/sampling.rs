@@ -46,7 +46,7 @@ impl Geometry {
         }
     }
 
-    /// Draws a point of a triangle, disk or sphere; uniform by area but on a sphere that its transform squeezes.
+    /// Draws a point of a primitive; uniform by area but on what its transform squeezes.
     ///
     /// # Panics
     /// For planes and surfaces of revolution, which do not shine: the former are endless, the latter are tessellated.
@@ -84,7 +84,7 @@ impl Geometry {
             Prim::Triangle(mesh, corners) => (2.0 / cross_of_edges(mesh.corners(corners)).length()) as f32,
             Prim::Solid(solid) => match solid.pdf_cone(from) {
                 Some(pdf) => return pdf,
-                None => solid.pdf_area(at.p),
+                None => solid.pdf_area(at.p, at.n),
             },
         };
         solid_angle_density(from, at.p, at.n, pdf_area).map_or(0.0, |(_, _, pdf)| pdf)

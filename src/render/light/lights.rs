@@ -4,7 +4,6 @@ use super::{AliasTable, Light, Sky};
 use crate::math::{Rgb, Vec3};
 use crate::render::bsdf::Materials;
 use crate::render::geometry::{Geometry, PrimId, SurfacePoint};
-use crate::render::shape::SolidKind;
 use rustc_hash::FxHashMap;
 
 /// The lights of a world, chosen with probabilities in proportion to their power.
@@ -78,7 +77,7 @@ fn shining_prims(geometry: &Geometry, materials: &Materials) -> Vec<PrimId> {
     let solids = geometry
         .solid_prims()
         .filter(|(solid, _)| shines(solid.material))
-        .filter(|(solid, _)| matches!(solid.kind, SolidKind::Sphere | SolidKind::Disk))
+        .filter(|(solid, _)| solid.kind.can_be_sampled())
         .map(|(_, prim)| prim);
     triangles.chain(solids).collect()
 }

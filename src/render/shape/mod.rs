@@ -1,12 +1,18 @@
 //! What can be hit.
 
+pub mod frustum;
 pub mod revolve;
 pub mod roots;
+#[cfg(test)]
+mod samples;
 pub mod solid;
 pub mod sphere;
+pub mod torus;
 pub mod triangle;
 
 use crate::math::{DAffine3, DVec2, Vec2, Vec3};
+pub use frustum::Frustum;
+pub use torus::Torus;
 
 /// Index of a material in the world.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
@@ -19,6 +25,7 @@ pub struct SourceId(pub u32);
 /// Triangles that share vertices, in world space.
 ///
 /// The geometric normal of a triangle is `(b − a) × (c − a)`: counter-clockwise seen from outside.
+#[derive(Clone)]
 pub struct Mesh {
     /// Vertex positions, in metres. Finite.
     pub positions: Vec<Vec3>,
@@ -57,6 +64,13 @@ pub struct Solid {
     pub source: SourceId,
 }
 
+impl Solid {
+    /// The area once it is placed, in m²; infinite for planes.
+    pub fn area(&self) -> f64 {
+        solid::area(&self.kind, &self.world_from_object)
+    }
+}
+
 /// The exact shapes, each in the frame where it is simplest.
 pub enum SolidKind {
     /// The unit sphere about the origin; normals outwards; u by longitude, 1/2 at +z, v from the south pole.
@@ -67,6 +81,17 @@ pub enum SolidKind {
     Plane,
     /// A profile turned about the y axis; normals to the right of the profile's direction of travel (outwards when the profile runs upwards).
     Revolve(Profile),
+    /// A cylinder or cone about the y axis; normals outwards.
+    Frustum(Frustum),
+    /// A ring about the y axis; normals outwards.
+    Torus(Torus),
+}
+
+impl SolidKind {
+    /// Whether points can be drawn from it, so that it can be a lamp.
+    pub const fn can_be_sampled(&self) -> bool {
+        !matches!(self, Self::Plane | Self::Revolve(_))
+    }
 }
 
 /// Cubic Bézier pieces of the curve (radius, height) in the half-plane radius ≥ 0.

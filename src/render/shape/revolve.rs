@@ -359,21 +359,8 @@ fn cut(control: &[DVec2; 4]) -> Vec<[DVec2; 4]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::shape::samples::Random;
     use std::cell::RefCell;
-
-    /// Numbers that look random, the same on every run (Knuth 1997, 3.3.4, MMIX).
-    struct Random(u64);
-
-    impl Random {
-        fn unit(&mut self) -> f64 {
-            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-        }
-
-        fn point(&mut self) -> DVec3 {
-            DVec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0
-        }
-    }
 
     fn line(from: DVec2, to: DVec2) -> [DVec2; 4] {
         [from, from.lerp(to, 1.0 / 3.0), from.lerp(to, 2.0 / 3.0), to]

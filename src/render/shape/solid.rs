@@ -35,7 +35,8 @@ impl PlacedSolid {
     /// Prepares a solid. Its transform must not be singular.
     pub fn new(solid: Solid) -> Self {
         let object_from_world = solid.world_from_object.inverse();
-        let mut placed = Self {
+        Self {
+            area: area(&solid.kind, &solid.world_from_object),
             object_from_world,
             normal_from_object: object_from_world.matrix3.transpose(),
             determinant: solid.world_from_object.matrix3.determinant().abs(),
@@ -43,11 +44,8 @@ impl PlacedSolid {
                 SolidKind::Revolve(profile) => Some(Revolve::new(profile)),
                 _ => None,
             },
-            area: 0.0,
             solid,
-        };
-        placed.area = placed.measure();
-        placed
+        }
     }
 
     /// The solid as it was given.
@@ -77,6 +75,8 @@ impl PlacedSolid {
                 let (t, uv) = self.revolve().intersect(o, d, within)?;
                 Some(SolidHit { t, uv })
             }
+            SolidKind::Frustum(frustum) => frustum.intersect(o, d, within).map(plain),
+            SolidKind::Torus(torus) => torus.intersect(o, d, within).map(plain),
         }
     }
 
@@ -105,6 +105,15 @@ impl PlacedSolid {
                 let (p, n, uv) = self.revolve().surface(hit.uv, at(t));
                 (p, n, sphere::tangent(p), uv)
             }
+            SolidKind::Frustum(frustum) => {
+                let (p, n, uv) = frustum.surface(o, d, t);
+                let is_end = n.x == 0.0 && n.z == 0.0;
+                (p, n, if is_end { DVec3::X } else { sphere::tangent(p) }, uv)
+            }
+            SolidKind::Torus(torus) => {
+                let (p, n, uv) = torus.surface(o, d, t);
+                (p, n, sphere::tangent(p), uv)
+            }
         };
         let (p_world, p_error) = self.to_world(p);
         let n = self.normal_to_world(n);
@@ -122,7 +131,7 @@ impl PlacedSolid {
         }
     }
 
-    /// Draws a point of a disk or sphere with the density [`Self::pdf_area`].
+    /// Draws a point with the density [`Self::pdf_area`].
     ///
     /// # Panics
     /// For planes and surfaces of revolution.
@@ -136,26 +145,34 @@ impl PlacedSolid {
                 let p = warp::square_to_uniform_disk(u);
                 (p.extend(0.0).as_dvec3(), DVec3::Z, p * 0.5 + 0.5)
             }
+            SolidKind::Frustum(frustum) => frustum.sample(u),
+            SolidKind::Torus(torus) => torus.sample(u),
             SolidKind::Plane | SolidKind::Revolve(_) => {
-                unreachable!("only triangles, disks and spheres shine")
+                unreachable!("what cannot be sampled is no lamp")
             }
         };
         let (p_world, p_error) = self.to_world(p);
-        let pdf_area = self.pdf_area_at(p);
+        let pdf_area = self.pdf_area_at(p, n);
         AreaSample { p: p_world, p_error, n: self.normal_to_world(n), uv, pdf_area }
     }
 
-    /// The density of [`Self::sample_area`] at a point on the solid, in world space, per square metre.
-    pub fn pdf_area(&self, p: Vec3) -> f32 {
-        self.pdf_area_at(self.object_from_world.transform_point3(p.as_dvec3()))
+    /// The density of [`Self::sample_area`] at a point on the solid with the unit normal `n`, both in world space, per
+    /// square metre.
+    pub fn pdf_area(&self, p: Vec3, n: Vec3) -> f32 {
+        let p_object = self.object_from_world.transform_point3(p.as_dvec3());
+        let n_object = self.solid.world_from_object.matrix3.transpose() * n.as_dvec3();
+        self.pdf_area_at(p_object, n_object.normalize())
     }
 
-    fn pdf_area_at(&self, p_object: DVec3) -> f32 {
+    /// By a point and a unit normal in the object's frame, where points are drawn uniformly by area.
+    fn pdf_area_at(&self, p_object: DVec3, n_object: DVec3) -> f32 {
         match &self.solid.kind {
             SolidKind::Sphere => {
                 let scale = self.area_scale(p_object.normalize());
                 (1.0 / (4.0 * PI * scale)) as f32
             }
+            SolidKind::Frustum(frustum) => (1.0 / (frustum.area() * self.area_scale(n_object))) as f32,
+            SolidKind::Torus(torus) => (1.0 / (torus.area() * self.area_scale(n_object))) as f32,
             _ => (1.0 / self.area) as f32,
         }
     }
@@ -230,6 +247,16 @@ impl PlacedSolid {
                 }
                 (low, high)
             }
+            SolidKind::Frustum(frustum) => {
+                let (ring, end) = (norm2(x, z), m.translation + y * frustum.height);
+                let (bottom, top) = (ring * frustum.base, ring * frustum.top);
+                ((m.translation - bottom).min(end - top), (m.translation + bottom).max(end + top))
+            }
+            SolidKind::Torus(torus) => {
+                let tube = (x * x + y * y + z * z).map(f64::sqrt) * torus.minor;
+                let reach = norm2(x, z) * torus.major + tube;
+                (m.translation - reach, m.translation + reach)
+            }
         };
         let slack = (low.abs().max(high.abs())) * FRAME_ERROR;
         Some(Bounds::enclosing(low - slack, high + slack))
@@ -252,13 +279,23 @@ impl PlacedSolid {
         let m = &self.solid.world_from_object;
         let exact = m.transform_point3(p);
         // Roots along a profile are known in proportion to the whole of it.
-        let extent = p.abs().max(DVec3::splat(self.revolve.as_ref().map_or(0.0, Revolve::size)));
+        let extent = p.abs().max(DVec3::splat(self.size()));
         let terms = m.matrix3.x_axis.abs() * extent.x
             + m.matrix3.y_axis.abs() * extent.y
             + m.matrix3.z_axis.abs() * extent.z
             + m.translation.abs();
         let error = exact.abs() * f64::from(float::gamma(2)) + terms * FRAME_ERROR;
         (exact.as_vec3(), error.as_vec3())
+    }
+
+    /// The extent in the object's frame to which the errors of its points are in proportion, where that is not their own.
+    fn size(&self) -> f64 {
+        match &self.solid.kind {
+            SolidKind::Revolve(_) => self.revolve().size(),
+            SolidKind::Frustum(frustum) => frustum.size(),
+            SolidKind::Torus(torus) => torus.size(),
+            SolidKind::Plane | SolidKind::Sphere | SolidKind::Disk => 0.0,
+        }
     }
 
     fn normal_to_world(&self, n: DVec3) -> Vec3 {
@@ -270,46 +307,56 @@ impl PlacedSolid {
         self.determinant * (self.normal_from_object * n).length()
     }
 
-    /// The area: closed forms where the transform allows, else a product rule over the parameters.
-    fn measure(&self) -> f64 {
-        match &self.solid.kind {
-            SolidKind::Plane => f64::INFINITY,
-            SolidKind::Disk => PI * self.area_scale(DVec3::Z),
-            SolidKind::Sphere => match self.sphere_radius() {
-                Some(radius) => 4.0 * PI * radius * radius,
-                None => self.integrate_sphere(),
-            },
-            SolidKind::Revolve(_) => {
-                self.revolve().elements().map(|(n, area)| area * self.area_scale(n)).sum()
-            }
-        }
-    }
-
-    /// The world radius if this is a sphere that its transform leaves round (to 10⁻⁶).
+    /// The world radius if this is a sphere that its transform leaves round.
     fn sphere_radius(&self) -> Option<f64> {
-        let m = &self.solid.world_from_object.matrix3;
-        let gram = m.transpose() * *m;
-        let square = gram.x_axis.x;
-        let skew = (gram - DMat3::from_diagonal(DVec3::splat(square))).abs();
-        let largest = skew.to_cols_array().into_iter().fold(0.0, f64::max);
-        (matches!(self.solid.kind, SolidKind::Sphere) && largest <= 1e-6 * square).then(|| square.sqrt())
+        let is_sphere = matches!(self.solid.kind, SolidKind::Sphere);
+        is_sphere.then(|| round_radius(&self.solid.world_from_object.matrix3)).flatten()
     }
+}
 
-    /// The area of an ellipsoid by midpoints in height and longitude (error below 10⁻³ up to an aspect of 100).
-    fn integrate_sphere(&self) -> f64 {
-        const STEPS: u32 = 256;
-        let middle = |i: u32| (f64::from(i) + 0.5) / f64::from(STEPS);
-        let mut sum = 0.0;
-        for i in 0..STEPS {
-            let z = 2.0 * middle(i) - 1.0;
-            for j in 0..STEPS {
-                let (sin, cos) = float::sin_cos64(2.0 * PI * middle(j));
-                let r = (1.0 - z * z).sqrt();
-                sum += self.area_scale(DVec3::new(r * cos, r * sin, z));
-            }
-        }
-        4.0 * PI * sum / f64::from(STEPS * STEPS)
+/// The area of a solid in its place, in m²: closed forms where the transform allows, else a product rule over the
+/// parameters; infinite for planes.
+pub fn area(kind: &SolidKind, world_from_object: &DAffine3) -> f64 {
+    let m = world_from_object.matrix3;
+    let (determinant, normal_from_object) = (m.determinant().abs(), m.inverse().transpose());
+    let scale = |n: DVec3| determinant * (normal_from_object * n).length();
+    let sum = |(n, area): (DVec3, f64)| area * scale(n);
+    match kind {
+        SolidKind::Plane => f64::INFINITY,
+        SolidKind::Disk => PI * scale(DVec3::Z),
+        SolidKind::Sphere => match round_radius(&m) {
+            Some(radius) => 4.0 * PI * radius * radius,
+            None => integrate_sphere(scale),
+        },
+        SolidKind::Revolve(profile) => Revolve::new(profile).elements().map(sum).sum(),
+        SolidKind::Frustum(frustum) => frustum.elements().map(sum).sum(),
+        SolidKind::Torus(torus) => torus.elements().map(sum).sum(),
     }
+}
+
+/// The radius that the unit sphere takes if `m` leaves it round (to 10⁻⁶).
+fn round_radius(m: &DMat3) -> Option<f64> {
+    let gram = m.transpose() * *m;
+    let square = gram.x_axis.x;
+    let skew = (gram - DMat3::from_diagonal(DVec3::splat(square))).abs();
+    let largest = skew.to_cols_array().into_iter().fold(0.0, f64::max);
+    (largest <= 1e-6 * square).then(|| square.sqrt())
+}
+
+/// The area of an ellipsoid by midpoints in height and longitude (error below 10⁻³ up to an aspect of 100).
+fn integrate_sphere(area_scale: impl Fn(DVec3) -> f64) -> f64 {
+    const STEPS: u32 = 256;
+    let middle = |i: u32| (f64::from(i) + 0.5) / f64::from(STEPS);
+    let mut sum = 0.0;
+    for i in 0..STEPS {
+        let z = 2.0 * middle(i) - 1.0;
+        for j in 0..STEPS {
+            let (sin, cos) = float::sin_cos64(2.0 * PI * middle(j));
+            let r = (1.0 - z * z).sqrt();
+            sum += area_scale(DVec3::new(r * cos, r * sin, z));
+        }
+    }
+    4.0 * PI * sum / f64::from(STEPS * STEPS)
 }
 
 /// The cone that a round sphere fills, seen from outside.

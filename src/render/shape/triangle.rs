@@ -9,17 +9,18 @@ use crate::math::{DVec3, Ray, Vec2, Vec3};
 /// Triangles tested at once.
 pub const LANES: usize = 4;
 
-type Lanes = [f32; LANES];
+/// A number for each triangle of a block.
+pub type Lanes = [f32; LANES];
 
 /// A ray, prepared for the watertight test.
 #[derive(Clone, Copy)]
 pub struct ShearedRay {
     /// The origin, its axes permuted so that the direction is largest along the last.
-    o: [f32; 3],
+    pub o: [f32; 3],
     /// The permutation.
     axes: [usize; 3],
     /// What shears and scales the direction to (0, 0, 1).
-    shear: [f32; 3],
+    pub shear: [f32; 3],
 }
 
 impl ShearedRay {
@@ -37,6 +38,12 @@ impl ShearedRay {
         let d = axes.map(|axis| ray.d[axis]);
         Self { o: axes.map(|axis| ray.o[axis]), axes, shear: [d[0] / d[2], d[1] / d[2], 1.0 / d[2]] }
     }
+
+    /// The axes of the ray's frame in space, each below 3.
+    #[inline(always)]
+    pub fn axes(&self) -> [usize; 3] {
+        self.axes
+    }
 }
 
 /// Where a ray meets a triangle.
@@ -50,19 +57,41 @@ pub struct TriangleHit {
 
 /// Up to four triangles, their coordinates side by side.
 #[derive(Clone, Debug)]
+#[repr(align(32))]
 pub struct TriangleBlock {
     /// Coordinates by vertex, axis, lane.
-    vertices: [[Lanes; 3]; 3],
+    pub vertices: [[Lanes; 3]; 3],
     /// The primitive in each lane; unused lanes repeat the last triangle, which does no harm.
     pub prims: [u32; LANES],
 }
 
 /// The three edge functions of four triangles, and the depth of their vertices along the sheared ray.
-struct Edges {
-    u: Lanes,
-    v: Lanes,
-    w: Lanes,
-    depth: [Lanes; 3],
+pub struct Edges {
+    /// Of the edge opposite the first vertex.
+    pub u: Lanes,
+    /// Of the edge opposite the second.
+    pub v: Lanes,
+    /// Of the edge opposite the third.
+    pub w: Lanes,
+    /// By vertex.
+    pub depth: [Lanes; 3],
+}
+
+impl Edges {
+    /// A bit for each lane whose edge functions do not differ in sign.
+    #[inline(always)]
+    pub fn inside(&self) -> u32 {
+        let mut inside = 0_u32;
+        for i in 0..LANES {
+            let (u, v, w) = (self.u[i], self.v[i], self.w[i]);
+            let low = if u < v { u } else { v };
+            let high = if u > v { u } else { v };
+            let low = if low < w { low } else { w };
+            let high = if high > w { high } else { w };
+            inside |= u32::from((low >= 0.0) | (high <= 0.0)) << i;
+        }
+        inside
+    }
 }
 
 impl TriangleBlock {
@@ -83,22 +112,25 @@ impl TriangleBlock {
     }
 
     /// Calls `found` for each lane whose triangle the line of `ray` meets, whatever the sign of `t`.
-    #[inline(always)]
-    pub fn intersect(&self, ray: &ShearedRay, mut found: impl FnMut(u32, TriangleHit)) {
+    pub fn intersect(&self, ray: &ShearedRay, found: impl FnMut(u32, TriangleHit)) {
         let mut edges = self.edges(ray);
-        let mut inside = 0_u32;
-        for i in 0..LANES {
-            let (u, v, w) = (edges.u[i], edges.v[i], edges.w[i]);
-            let low = if u < v { u } else { v };
-            let high = if u > v { u } else { v };
-            let low = if low < w { low } else { w };
-            let high = if high > w { high } else { w };
-            inside |= u32::from((low >= 0.0) | (high <= 0.0)) << i;
-        }
+        let inside = edges.inside();
+        self.finish(ray, &mut edges, inside, found);
+    }
+
+    /// Calls `found` for each lane of `inside` that is inside for certain.
+    #[inline(always)]
+    pub fn finish(
+        &self,
+        ray: &ShearedRay,
+        edges: &mut Edges,
+        mut inside: u32,
+        mut found: impl FnMut(u32, TriangleHit),
+    ) {
         while inside != 0 {
             let i = inside.trailing_zeros() as usize;
             inside &= inside - 1;
-            if let Some(hit) = self.finish(ray, &mut edges, i) {
+            if let Some(hit) = self.finish_lane(ray, edges, i) {
                 found(self.prims[i], hit);
             }
         }
@@ -106,7 +138,7 @@ impl TriangleBlock {
 
     /// The edge functions of all lanes, in single precision.
     #[inline(always)]
-    fn edges(&self, ray: &ShearedRay) -> Edges {
+    pub fn edges(&self, ray: &ShearedRay) -> Edges {
         let (a, b, c) = (self.sheared(ray, 0), self.sheared(ray, 1), self.sheared(ray, 2));
         let mut edges =
             Edges { u: [0.0; LANES], v: [0.0; LANES], w: [0.0; LANES], depth: [a[2], b[2], c[2]] };
@@ -135,7 +167,7 @@ impl TriangleBlock {
 
     /// Decides the lane exactly where an edge function rounds to 0, and finds `t` and the barycentrics.
     #[inline(always)]
-    fn finish(&self, ray: &ShearedRay, edges: &mut Edges, i: usize) -> Option<TriangleHit> {
+    fn finish_lane(&self, ray: &ShearedRay, edges: &mut Edges, i: usize) -> Option<TriangleHit> {
         if edges.u[i] == 0.0 || edges.v[i] == 0.0 || edges.w[i] == 0.0 {
             self.refine(ray, edges, i)?;
         }

@@ -19,9 +19,6 @@ const CSG: &[&str] = &["difference", "union", "intersection", "merge", "subtract
 
 /// What the language will have later, and what does instead.
 const LATER: &[(&str, &str)] = &[
-    ("cylinder", "turn a line: `revolve { profile: polyline [(1m, 0m), (1m, 2m)] }`"),
-    ("cone", "turn a line: `revolve { profile: polyline [(1m, 0m), (0m, 2m)] }`"),
-    ("torus", "turn a circle: `revolve` with a `bezier` profile"),
     ("sweep", "model it as a `mesh`"),
     ("heightfield", "model it as a `mesh`"),
     ("plastic", "use `phong`"),

@@ -54,6 +54,19 @@ impl<'a> Resolver<'a> {
             "triangle" => ShapeKind::Triangle {
                 corners: [fields.triple("a")?, fields.triple("b")?, fields.triple("c")?],
             },
+            "cylinder" | "cone" => ShapeKind::Cone {
+                base: point("base")?,
+                axis: axis(fields)?,
+                radius: fields.number("radius")?,
+                top_radius: fields.block.field("top_radius").and_then(|_| fields.number("top_radius")),
+                caps: fields.flag("caps")?,
+            },
+            "torus" => ShapeKind::Torus {
+                center: point("center")?,
+                normal: fields.triple("normal")?,
+                radius: fields.number("radius")?,
+                tube: fields.number("tube")?,
+            },
             "mesh" => ShapeKind::Mesh {
                 file: fields.text("file")?,
                 scale: fields.number("scale")?,
@@ -100,6 +113,13 @@ fn method(fields: &Fields) -> Method {
     } else {
         Method::Exact
     }
+}
+
+/// From the bottom of a cylinder or cone to its top.
+fn axis(fields: &Fields) -> Option<Spanned<DVec3>> {
+    let base = fields.triple("base")?.value;
+    let height = || fields.number("height").map(|height| height.map(|height| DVec3::Y * height));
+    fields.triple("top").map(|top| top.map(|top| top - base)).or_else(height)
 }
 
 fn plane(fields: &Fields) -> Option<ShapeKind> {
