@@ -241,8 +241,8 @@ fn walk_lights(lights: &Node, path: &Path, shapes: &mut Vec<Placed>) {
             "LightTriangle" => corners(["vertex0", "vertex1", "vertex2"], true),
             _ => along(),
         };
-        let shape = around("x_axis", "y_axis").or_else(|| around("dirX", "dirY")).or_else(by_corners);
-        let shape = shape.or_else(|| match (light.vector("position"), light.number("radius")) {
+        let flat = around("x_axis", "y_axis").or_else(|| around("dirX", "dirY")).or_else(by_corners);
+        let shape = flat.or_else(|| match (light.vector("position"), light.number("radius")) {
             (Some(p), Some(radius)) if light.name == "SphereLight" => Some(Shape::Ball(p, radius)),
             (Some(p), Some(radius)) if light.name != "PointLight" && light.name != "SpotLight" => {
                 let normal = light.vector("normal").or(light.vector("direction"))?;
