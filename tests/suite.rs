@@ -23,5 +23,6 @@ mod readme;
 mod reference;
 mod robust;
 mod robust_syntax;
+mod silhouettes;
 mod snapshots;
 mod support;

@@ -95,8 +95,7 @@ impl View {
         let forward = camera.direction.value.try_normalize()?;
         let right = forward.cross(camera.up.value).try_normalize()?;
         let up = right.cross(forward);
-        let (width, height) = camera.film.size.value;
-        let aspect = f64::from(width) / f64::from(height);
+        let (width, aspect) = (camera.film.size.value.0, camera.film.aspect());
         let tan_x = tan_half_fov_x(camera, aspect);
         let (x, y) = (WIDER * tan_x, WIDER * tan_x / aspect);
         let sides = match is_point(camera) {

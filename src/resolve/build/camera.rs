@@ -126,7 +126,8 @@ impl<'a> Resolver<'a> {
             "agx" => Tone::Agx,
             _ => Tone::Srgb,
         });
-        Some(Film { size, filter, sensor: fields.number("sensor")?, exposure, tone })
+        let pixel_aspect = fields.number("pixel_aspect")?;
+        Some(Film { size, filter, pixel_aspect, sensor: fields.number("sensor")?, exposure, tone })
     }
 }
 
