@@ -45,7 +45,7 @@ impl Integrator for PathTracer<'_> {
         let mut radiance = Rgb::BLACK;
         let mut beta = Rgb::WHITE;
         let mut last = Last { from: Viewpoint { p: ray.o, n: None }, pdf: f32::INFINITY };
-        let mut media = Media::NONE;
+        let mut media = Media::start(&self.world.materials, sampler);
         let mut eta_scale = 1.0; // the factor η² that refraction has taken from beta, and will give back
 
         for depth in 0..self.max_depth {
@@ -77,7 +77,7 @@ impl Integrator for PathTracer<'_> {
             last =
                 Last { from: vertex.viewpoint(), pdf: if next.specular { f32::INFINITY } else { next.pdf } };
             if next.through {
-                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
+                beta *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &self.world.materials);
             }
 
             // End dim paths early; the survivors carry their weight.
@@ -120,7 +120,7 @@ impl PathTracer<'_> {
             return Rgb::BLACK;
         };
         let (value, pdf_bsdf) = vertex.bsdf.eval_pdf(vertex.wo, drawn.wi);
-        let arriving = value * drawn.radiance;
+        let mut arriving = value * drawn.radiance;
         if arriving.is_black() {
             return Rgb::BLACK;
         }
@@ -129,6 +129,11 @@ impl PathTracer<'_> {
             return Rgb::BLACK;
         }
         let weight = if drawn.delta { 1.0 } else { mis_weight(drawn.pdf, pdf_bsdf) };
+        let mut media = *media;
+        let n = vertex.surface.n;
+        if vertex.wo.dot(n) * drawn.wi.dot(n) < 0.0 && vertex.bsdf.spreads_through() {
+            arriving *= media.pass(vertex.surface.material, drawn.wi.dot(n) < 0.0, &world.materials);
+        }
         arriving * media.transmittance(drawn.distance(), &world.materials) * (weight / drawn.pdf)
     }
 }
