@@ -256,9 +256,15 @@ fn dump_camera(out: &mut String, scene: &Scene, camera: &Camera) {
     };
     let ((width, height), filter, tone) = (film.size.value, film.filter.value, film.tone.value);
     let sensor = number(film.sensor.value);
+    let stretch = match film.pixel_aspect.value {
+        1.0 => String::new(),
+        aspect => format!(" pixel_aspect {}", number(aspect)),
+    };
     line(
         out,
-        &format!("    film {width} x {height} {filter:?} sensor {sensor} exposure {exposure} {tone:?}"),
+        &format!(
+            "    film {width} x {height}{stretch} {filter:?} sensor {sensor} exposure {exposure} {tone:?}"
+        ),
     );
 }
 

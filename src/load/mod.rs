@@ -111,6 +111,8 @@ pub fn load<'a>(
             None => loader.own_materials(object.shape),
         }
     }
+    // A misspelt name shall not hide that what it means lacks its file.
+    scene.intent.materials.iter().for_each(|&material| loader.material(material));
     if let Some(environment) = &scene.environment
         && let EnvironmentRadiance::Image(texture) = environment.radiance
     {

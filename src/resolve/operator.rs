@@ -201,6 +201,7 @@ impl<'a> Resolver<'a> {
                     false => "the exponent is a plain number".to_owned(),
                 })
             }
+            (Value::Text(_), Value::Text(_)) => None,
             _ => help.or(joins_alike.then(|| "both sides have to be of the same kind".to_owned())),
         };
         self.poison(Error::Incompatible {

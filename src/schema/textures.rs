@@ -3,7 +3,7 @@
 use super::{Area, Block, Field, Range, Type, at_most_one_of, field};
 
 const IMAGE: &[Field] = &[
-    field("file", Type::Text, "A PNG, JPEG, HDR, EXR or PPM file, beside the scene.").required(),
+    field("file", Type::Text, "A PNG, JPEG, BMP, TGA, HDR, EXR or PPM file, beside the scene.").required(),
     field("wrap", Type::Choice(&["repeat", "clamp", "mirror", "border"]), "What lies beyond its edges.")
         .or_word("repeat"),
     field("border", Type::Color, "The colour beyond its edges, for `wrap: border`.").or(0.0),

@@ -27,6 +27,12 @@ impl<'a> Resolver<'a> {
         Some(self.scene.materials.push(Material { kind, span, name: None, calls: self.calls_here() }))
     }
 
+    /// A grey material in the place of one that could not be made.
+    pub(super) fn stand_in(&mut self, span: Span) -> Handle<Material> {
+        let kind = MaterialKind::Diffuse { color: Input::Constant(Spanned::new(Rgb::gray(0.5), span)) };
+        self.scene.materials.push(Material { kind, span, name: None, calls: Vec::new() })
+    }
+
     fn material_kind(&mut self, fields: &Fields<'a>) -> Option<MaterialKind> {
         Some(match fields.block.kind {
             "diffuse" => MaterialKind::Diffuse { color: fields.input("color")? },
