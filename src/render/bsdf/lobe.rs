@@ -80,7 +80,11 @@ impl Lobe {
     pub fn transmits(&self) -> bool {
         !matches!(
             self,
-            Self::Lambert { .. } | Self::Phong { .. } | Self::Conductor { .. } | Self::Mirror { .. }
+            Self::Lambert { .. }
+                | Self::Phong { .. }
+                | Self::Conductor(_)
+                | Self::Mirror(_)
+                | Self::Substrate(_)
         )
     }
 

@@ -211,6 +211,11 @@ impl Bsdf {
         self.lobes().iter().any(Lobe::transmits)
     }
 
+    /// The unit normal that it scatters about, on the side of the geometric one.
+    pub fn normal(&self) -> Vec3 {
+        self.frame.z
+    }
+
     /// The same where another solid fills the space on both sides: light passes as if nothing were there.
     #[must_use]
     pub fn hidden(self) -> Self {

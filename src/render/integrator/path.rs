@@ -141,7 +141,7 @@ impl PathTracer<'_> {
 impl Vertex<'_> {
     /// From where it looks for light: above its surface, unless light may come through it.
     fn viewpoint(&self) -> Viewpoint {
-        let ns = self.surface.ns;
+        let ns = self.bsdf.normal();
         let n = if self.wo.dot(self.surface.n) < 0.0 { -ns } else { ns };
         Viewpoint { p: self.surface.p, n: (!self.bsdf.transmits()).then_some(n) }
     }
