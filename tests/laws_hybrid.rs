@@ -4,7 +4,7 @@ use crate::laws::worlds::{
     camera, color, cornell, cuboid, diffuse, emissive, empty, gray, mean, quad, sphere, trace,
 };
 use snell::math::{DAffine3, Ray, Rgb, Vec3};
-use snell::render::bsdf::Material;
+use snell::render::bsdf::{Glass, Material};
 use snell::render::film::Film;
 use snell::render::integrator::Pass;
 use snell::render::light::{Environment, EnvironmentRadiance, Falloff, Light};
@@ -76,11 +76,11 @@ fn assert_same(name: &str, parts: Parts, other: (Method, u32)) {
 }
 
 fn metal(roughness: f32) -> Material {
-    Material::Metal { f0: color(0.9, 0.6, 0.3), roughness: gray(roughness) }
+    Material::Metal { f0: color(0.9, 0.6, 0.3), edge: gray(1.0), roughness: gray(roughness) }
 }
 
 fn glass(absorption: Rgb) -> Material {
-    Material::Glass { ior: 1.5, tint: Rgb::WHITE, absorption }
+    Material::Glass(Glass { absorption, ..Glass::of_ior(1.5) })
 }
 
 fn glossy(diffuse: f32, specular: f32, shininess: f32) -> Material {
@@ -322,7 +322,7 @@ fn caustics_are_as_bright_as_the_light_that_makes_them() {
     // Straight through a pane, from a lamp to a floor: glass of index 1 changes nothing.
     let through = |ior: f32| {
         let mut parts = table(diffuse(0.7));
-        parts.materials[1] = Material::Glass { ior, tint: Rgb::WHITE, absorption: Rgb::BLACK };
+        parts.materials[1] = Material::Glass(Glass::of_ior(ior));
         lamp(&mut parts);
         parts
     };

@@ -7,6 +7,7 @@ mod convert_cli;
 mod convert_rays;
 mod doubts;
 mod explain;
+mod first_run;
 mod format;
 mod fuzz;
 mod generate;

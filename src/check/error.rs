@@ -165,6 +165,50 @@ pub enum CheckError {
         #[label("too many here")]
         used: Span,
     },
+    #[error("{inner} cannot stand in {outer}")]
+    #[diagnostic(code(snell::check::cannot_hold), help("{help}"))]
+    CannotHold {
+        inner: &'static str,
+        outer: &'static str,
+        help: &'static str,
+        #[label("holds it")]
+        outside: Span,
+        #[label("this one")]
+        used: Span,
+    },
+    #[error("this texture is made of {found} others, and at most {most} are looked up at a point")]
+    #[diagnostic(
+        code(snell::check::too_deep_texture),
+        help(
+            "make it of fewer: what is constant can be multiplied beforehand, the rest painted into one picture"
+        )
+    )]
+    TooDeepTexture {
+        found: u32,
+        most: u32,
+        #[label("too many here")]
+        used: Span,
+    },
+    #[error("{what} may be as bright as {found}: where it is beyond 1 it counts as 1")]
+    #[diagnostic(
+        code(snell::check::may_create_energy),
+        severity(warning),
+        help("scale it so that no channel can be greater than 1")
+    )]
+    MayCreateEnergy {
+        what: &'static str,
+        found: f32,
+        #[label("this sum or product")]
+        used: Span,
+    },
+    #[error("a pane has no inside to {what}")]
+    #[diagnostic(code(snell::check::thin_inside), help("{help}"))]
+    ThinInside {
+        what: &'static str,
+        help: &'static str,
+        #[label("so this means nothing")]
+        used: Span,
+    },
     #[error("an endless plane has no area to shine from")]
     #[diagnostic(
         code(snell::check::endless_light),

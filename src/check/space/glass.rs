@@ -130,8 +130,10 @@ fn pair(a: &Clear<'_>, b: &Clear<'_>) -> Option<SpaceError> {
     if coincide(a, b) {
         return Some(SpaceError::CoincidentGlass { second, first });
     }
-    // Where alike glasses overlap they melt into one.
-    (a.glass != b.glass && overlap(a.solid, b.solid)).then_some(SpaceError::GlassOverlap { second, first })
+    // Where alike glasses overlap they melt into one; of others, the scene may say which fills the space.
+    let is_said = a.glass.priority != b.glass.priority;
+    (a.glass != b.glass && !is_said && overlap(a.solid, b.solid))
+        .then_some(SpaceError::GlassOverlap { second, first })
 }
 
 /// Whether two solids surely overlap without one being inside the other.

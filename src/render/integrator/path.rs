@@ -68,7 +68,7 @@ impl Integrator for PathTracer<'_> {
         let mut radiance = Rgb::BLACK;
         let mut beta = Rgb::WHITE;
         let mut last = Last { from: Viewpoint { p: ray.o, n: None }, pdf: f32::INFINITY, sharp: None };
-        let mut media = Media::NONE;
+        let mut media = Media::start(&self.world.materials, sampler);
         let mut eta_scale = 1.0; // the factor η² that refraction has taken from beta, and will give back
         let mut after_wide = false;
         let (mut footprint, mut angle) = (0.0, self.world.camera.pixel_angle());
@@ -118,7 +118,7 @@ impl Integrator for PathTracer<'_> {
                 }
             }
             if next.through {
-                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
+                beta *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &self.world.materials);
             }
 
             // End dim paths early; the survivors carry their weight.
@@ -191,7 +191,7 @@ impl PathTracer<'_> {
             return Rgb::BLACK;
         };
         let (value, pdf_bsdf) = self.eval_pdf(vertex, Source::of(&drawn), drawn.wi);
-        let arriving = value * drawn.radiance;
+        let mut arriving = value * drawn.radiance;
         if arriving.is_black() {
             return Rgb::BLACK;
         }
@@ -200,6 +200,11 @@ impl PathTracer<'_> {
             return Rgb::BLACK;
         }
         let weight = if drawn.delta { 1.0 } else { mis_weight(drawn.pdf, pdf_bsdf) };
+        let mut media = *media;
+        let n = vertex.surface.n;
+        if vertex.wo.dot(n) * drawn.wi.dot(n) < 0.0 && vertex.bsdf.spreads_through() {
+            arriving *= media.pass(vertex.surface.material, drawn.wi.dot(n) < 0.0, &world.materials);
+        }
         arriving * media.transmittance(drawn.distance(), &world.materials) * (weight / drawn.pdf)
     }
 }
@@ -207,7 +212,7 @@ impl PathTracer<'_> {
 impl Vertex<'_> {
     /// From where it looks for light: above its surface, unless light may come through it.
     fn viewpoint(&self) -> Viewpoint {
-        let ns = self.surface.ns;
+        let ns = self.bsdf.normal();
         let n = if self.wo.dot(self.surface.n) < 0.0 { -ns } else { ns };
         Viewpoint { p: self.surface.p, n: (!self.bsdf.transmits()).then_some(n) }
     }

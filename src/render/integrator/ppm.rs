@@ -47,7 +47,7 @@ impl Integrator for PhotonMapper<'_> {
     fn radiance(&self, mut ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
         let mut radiance = Rgb::BLACK;
         let mut beta = Rgb::WHITE;
-        let mut media = Media::NONE;
+        let mut media = Media::start(&self.world.materials, sampler);
         let mut eta_scale = 1.0; // the factor η² that refraction has taken from beta, and will give back
 
         for depth in 0..self.max_depth {
@@ -81,7 +81,7 @@ impl Integrator for PhotonMapper<'_> {
             eta_scale *= next.eta * next.eta;
             ray = surface.spawn(next.wi);
             if next.through {
-                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
+                beta *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &self.world.materials);
             }
 
             // End dim paths early; the survivors carry their weight.

@@ -113,7 +113,7 @@ impl Tracer<'_> {
         let Caustics { world, aim, max_depth, .. } = self.caustics;
         let Some(start) = aim.emit(sampler) else { return };
         let (mut ray, mut power) = (start.ray, start.power * share);
-        let mut media = Media::NONE;
+        let mut media = Media::start(&world.materials, sampler);
         for bounce in 0..max_depth.saturating_sub(1) {
             self.rays += 1;
             let Some(hit) = world.closest_hit(&ray) else { return };
@@ -144,7 +144,7 @@ impl Tracer<'_> {
             power *= next.weight / survival;
             ray = surface.spawn(next.wi);
             if next.through {
-                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
+                power *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &world.materials);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{Disc, Neighbor, Photon, PhotonMap};
 use crate::math::{Rgb, Vec3};
-use crate::render::bsdf::{Bsdf, Lobe};
+use crate::render::bsdf::Bsdf;
 use crate::render::geometry::SurfacePoint;
 use std::cell::RefCell;
 use std::f32::consts::{FRAC_1_PI, PI};
@@ -37,7 +37,7 @@ impl Gather {
         let accepts = |photon: &Photon| {
             photon.depth <= self.max_depth && photon.wi.dot(n) > 0.0 && photon.n.dot(n) >= COS_MOST_BENT
         };
-        let sends = Sends::new(surface, bsdf, wo, n);
+        let sends = Sends::new(bsdf, wo, n);
         if let Some(sum) = self.sum_all(map, &disc, accepts, &sends) {
             return sends.radiance(sum) / (PI * self.radius2);
         }
@@ -94,11 +94,8 @@ struct Sends<'a> {
 }
 
 impl<'a> Sends<'a> {
-    fn new(surface: &SurfacePoint, bsdf: &'a Bsdf, wo: Vec3, n: Vec3) -> Self {
-        let factor = match *bsdf.lobes() {
-            [Lobe::Lambert { albedo }] if surface.n == surface.ns => Some(albedo * FRAC_1_PI),
-            _ => None,
-        };
+    fn new(bsdf: &'a Bsdf, wo: Vec3, n: Vec3) -> Self {
+        let factor = bsdf.matt_albedo().map(|albedo| albedo * FRAC_1_PI);
         Self { bsdf, wo, n, factor }
     }
 

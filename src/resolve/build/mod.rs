@@ -3,6 +3,7 @@
 mod camera;
 mod light;
 mod material;
+mod metal;
 mod render;
 mod shape;
 mod texture;
@@ -21,18 +22,6 @@ const CSG: &[&str] = &["difference", "union", "intersection", "merge", "subtract
 const LATER: &[(&str, &str)] = &[
     ("sweep", "model it as a `mesh`"),
     ("heightfield", "model it as a `mesh`"),
-    ("plastic", "use `phong`"),
-    ("principled", "use `phong`, `metal` or `glass`, or a `mix` of them"),
-    ("layer", "use `phong`, or a `mix`"),
-    ("mask", "cut the shape itself"),
-    ("two_sided", "materials show on both sides already"),
-    ("normal_map", "use a finer mesh"),
-    ("bump", "use a finer mesh"),
-    ("gradient", "use `image` or `checker`"),
-    ("noise", "use `image` or `checker`"),
-    ("marble", "use `image`"),
-    ("wood", "use `image`"),
-    ("brick", "use `image` or `checker`"),
     ("orthographic", "use a long way off and a small `fov`"),
     ("panorama", "use `pinhole`"),
     ("fisheye", "use `pinhole`"),
