@@ -176,6 +176,11 @@ impl Lights {
         if own > 0.0 { far * (own / all) * pdf } else { 0.0 }
     }
 
+    /// Whether points of a shining primitive are ever drawn, and photons leave it.
+    pub fn draws(&self, prim: PrimId) -> bool {
+        self.by_prim.contains_key(&prim)
+    }
+
     /// Every light.
     pub fn all(&self) -> &[Light] {
         &self.lights
