@@ -117,6 +117,17 @@ pub enum CheckError {
         #[label("this object")]
         object: Span,
     },
+    #[error("a scene has one sky, and this is the second")]
+    #[diagnostic(
+        code(snell::check::second_sky),
+        help("keep one of them: an `environment`, or a `light sun_sky`")
+    )]
+    SecondSky {
+        #[label("another sky")]
+        second: Span,
+        #[label("the first")]
+        first: Span,
+    },
     #[error("paths of at most {depth} vertices {end}")]
     #[diagnostic(
         code(snell::check::short_paths),
@@ -357,6 +368,14 @@ pub enum CheckError {
         edges: String,
         #[label("named here")]
         used: Span,
+    },
+    #[error("this {what} is of glass, and its ends are open")]
+    #[diagnostic(code(snell::check::open_ends), severity(warning), help("{help}"))]
+    OpenEnds {
+        what: &'static str,
+        #[label("light that enters here has to meet a surface where it leaves")]
+        object: Span,
+        help: &'static str,
     },
     #[error("`{name}` is of glass, and {said}")]
     #[diagnostic(

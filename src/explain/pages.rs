@@ -59,10 +59,12 @@ const PAGES: &[Page] = pages! {
         not_positive: Error,
         nothing_in_view: Warning,
         object_hidden: Warning,
+        open_ends: Warning,
         open_glass: Warning,
         out_of_range: Error,
         phong_energy: Warning,
         short_paths: Warning,
+        second_sky: Error,
         singular_transform: Error,
         squeezing_transform: Warning,
         too_deep_mix: Error,
@@ -114,6 +116,7 @@ const PAGES: &[Page] = pages! {
         up_not_perpendicular: Warning,
     }
     load {
+        bad_lens: Error,
         bad_mesh: Error,
         bad_picture: Error,
         mesh_note: Warning,
@@ -124,6 +127,7 @@ const PAGES: &[Page] = pages! {
     }
     lower {
         bad_focus: Error,
+        too_wide: Error,
     }
     plan {
         classic_only: Error,

@@ -107,7 +107,7 @@ fn classic_only(loaded: &Loaded<'_>, problems: &mut Problems) {
         }
     }
     for light in &scene.lights {
-        if let LightKind::Point { falloff, .. } = light.kind
+        if let Some(falloff) = light.kind.falloff()
             && falloff.value != LightKind::PHYSICAL
         {
             report("such a falloff", falloff.span);
@@ -118,7 +118,10 @@ fn classic_only(loaded: &Loaded<'_>, problems: &mut Problems) {
 /// A light from infinitely far and a plane without end.
 fn endless(loaded: &Loaded<'_>) -> Option<(Span, Span)> {
     let scene = loaded.scene;
-    let far = scene.lights.iter().find(|light| matches!(light.kind, LightKind::Directional { .. }));
+    let far = scene
+        .lights
+        .iter()
+        .find(|light| matches!(light.kind, LightKind::Directional { .. } | LightKind::SunSky(_)));
     let environment = scene.environment.as_ref().map(|environment| environment.span);
     let light = far.map(|light| light.span).or(environment)?;
     let is_plane =
@@ -136,10 +139,7 @@ pub fn suited(loaded: &Loaded<'_>, camera: Option<&Camera>) -> Method {
 fn choose(loaded: &Loaded<'_>, effects: &[EffectUse]) -> (Method, String) {
     let caustics = effects.iter().any(|used| used.effect == Effect::Caustics);
     let hidden = loaded.scene.lights.iter().any(|light| {
-        matches!(
-            light.kind,
-            LightKind::Point { .. } | LightKind::Sphere { .. } | LightKind::Directional { .. }
-        )
+        light.kind.is_sizeless() || matches!(light.kind, LightKind::Sphere { .. } | LightKind::SunSky(_))
     });
     if caustics && hidden && endless(loaded).is_some() {
         return (Method::Pt, "photons from infinitely far cannot cover a plane without end".to_owned());

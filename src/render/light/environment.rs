@@ -1,6 +1,7 @@
 //! Light from infinity: one colour, or a picture wrapped around the world.
 
 use super::distribution::GridDistribution;
+use super::sun::Sun;
 use crate::math::{Rgb, Vec2, Vec3, float, warp};
 use crate::render::texture::Image;
 use std::f64::consts::{PI, TAU};
@@ -24,6 +25,22 @@ pub enum EnvironmentRadiance {
     Constant(Rgb),
     /// Equirectangular: the top row is +y, the centre −z, and the right of the centre +x.
     Image(Arc<Image>),
+    /// A picture of the sky, as above, and the sun that is not in it.
+    Daylight {
+        /// The sky without the sun.
+        sky: Arc<Image>,
+        /// The sun, if it shines.
+        sun: Option<Sun>,
+    },
+}
+
+impl EnvironmentRadiance {
+    fn image(&self) -> Option<&Image> {
+        match self {
+            Self::Constant(_) => None,
+            Self::Image(image) | Self::Daylight { sky: image, .. } => Some(image),
+        }
+    }
 }
 
 /// An environment made ready to be drawn from.
@@ -31,30 +48,43 @@ pub struct Sky {
     environment: Environment,
     /// Over the texels of a picture that is not black.
     grid: Option<GridDistribution>,
+    /// The sun, and the share of directions that are drawn to it.
+    sun: Option<(Sun, f32)>,
     mean: Rgb,
 }
 
 impl Sky {
     /// Makes an environment ready.
     pub fn new(environment: Environment) -> Self {
-        let (grid, mean) = match &environment.radiance {
-            EnvironmentRadiance::Constant(color) => (None, *color),
-            EnvironmentRadiance::Image(image) => {
+        let (grid, mean) = match (&environment.radiance, environment.radiance.image()) {
+            (EnvironmentRadiance::Constant(color), _) => (None, *color),
+            (_, Some(image)) => {
                 let weights = texel_weights(image);
                 (GridDistribution::new(image.width() as usize, &weights), mean_radiance(image))
             }
+            (_, None) => (None, Rgb::BLACK),
         };
-        let mean = mean * environment.scale;
-        Self { environment, grid, mean }
+        let (sun, from_sun) = match &environment.radiance {
+            EnvironmentRadiance::Daylight { sun: Some(sun), .. } => {
+                let from_sun = sun.radiance * (sun.solid_angle() / (4.0 * PI)) as f32;
+                (Some((*sun, sun_share(from_sun.luminance(), mean.luminance()))), from_sun)
+            }
+            _ => (None, Rgb::BLACK),
+        };
+        let mean = (mean + from_sun) * environment.scale;
+        Self { environment, grid, sun, mean }
     }
 
     /// The radiance from the unit direction `dir`; between texel centres of a picture it goes in straight lines.
     pub fn radiance(&self, dir: Vec3) -> Rgb {
         let radiance = match &self.environment.radiance {
             EnvironmentRadiance::Constant(color) => *color,
-            EnvironmentRadiance::Image(image) => interpolate(image, self.image_point(dir)),
+            EnvironmentRadiance::Image(image) | EnvironmentRadiance::Daylight { sky: image, .. } => {
+                interpolate(image, self.image_point(dir))
+            }
         };
-        radiance * self.environment.scale
+        let sun = self.sun.filter(|(sun, _)| sun.meets(dir));
+        (radiance + sun.map_or(Rgb::BLACK, |(sun, _)| sun.radiance)) * self.environment.scale
     }
 
     /// The mean radiance over all directions.
@@ -64,7 +94,24 @@ impl Sky {
 
     /// Draws a direction, and its density per steradian.
     pub fn sample(&self, u: Vec2) -> (Vec3, f32) {
-        let (Some(grid), EnvironmentRadiance::Image(image)) = (&self.grid, &self.environment.radiance) else {
+        let Some((sun, share)) = &self.sun else { return self.sample_dome(u) };
+        let dir = if u.x < *share {
+            sun.sample(Vec2::new(u.x / share, u.y))
+        } else {
+            self.sample_dome(Vec2::new(((u.x - share) / (1.0 - share)).min(BELOW_ONE), u.y)).0
+        };
+        (dir, self.pdf(dir))
+    }
+
+    /// The density per steradian with which [`Self::sample`] draws `dir`.
+    pub fn pdf(&self, dir: Vec3) -> f32 {
+        let Some((sun, share)) = &self.sun else { return self.pdf_dome(dir) };
+        let to_sun = if sun.meets(dir) { (1.0 / sun.solid_angle()) as f32 } else { 0.0 };
+        share * to_sun + (1.0 - share) * self.pdf_dome(dir)
+    }
+
+    fn sample_dome(&self, u: Vec2) -> (Vec3, f32) {
+        let (Some(grid), Some(image)) = (&self.grid, self.environment.radiance.image()) else {
             return (warp::square_to_uniform_sphere(u), UNIFORM_PDF);
         };
         let cell = grid.sample(f64::from(u.x), f64::from(u.y));
@@ -78,9 +125,8 @@ impl Sky {
         (dir.normalize(), (cell.pmf / texel_angle(image, cell.row)) as f32)
     }
 
-    /// The density per steradian with which [`Self::sample`] draws `dir`.
-    pub fn pdf(&self, dir: Vec3) -> f32 {
-        let (Some(grid), EnvironmentRadiance::Image(image)) = (&self.grid, &self.environment.radiance) else {
+    fn pdf_dome(&self, dir: Vec3) -> f32 {
+        let (Some(grid), Some(image)) = (&self.grid, self.environment.radiance.image()) else {
             return UNIFORM_PDF;
         };
         let [s, t] = self.image_point(dir);
@@ -96,6 +142,15 @@ impl Sky {
         let phi = float::atan2_64(dir.x, -dir.z) + f64::from(self.environment.rotation);
         [(phi / TAU + 0.5).rem_euclid(1.0), theta / PI]
     }
+}
+
+/// The largest number below 1.
+const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
+
+/// The share of directions drawn to the sun, by the light from it and from the sky: neither is forgotten.
+fn sun_share(sun: f32, sky: f32) -> f32 {
+    let share = if sun + sky > 0.0 { sun / (sun + sky) } else { 0.5 };
+    share.clamp(0.2, 0.8)
 }
 
 const UNIFORM_PDF: f32 = std::f32::consts::FRAC_1_PI / 4.0;

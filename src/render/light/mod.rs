@@ -7,10 +7,14 @@ mod alias;
 mod distribution;
 mod environment;
 mod lights;
+mod spot;
+mod sun;
 
 pub use alias::AliasTable;
 pub use environment::{Environment, EnvironmentRadiance, Sky};
 pub use lights::Lights;
+pub use spot::Spot;
+pub use sun::Sun;
 
 use super::bsdf::Emission;
 use super::geometry::{Geometry, PrimId, SurfacePoint};
@@ -28,6 +32,8 @@ pub enum Light {
         /// How it fades; all but recursive ray tracing take [`Falloff::PHYSICAL`] only.
         falloff: Falloff,
     },
+    /// Shines from one point into a cone.
+    Spot(Spot),
     /// Shines along one direction from infinitely far away.
     Directional {
         /// The unit direction in which the light travels.
@@ -133,6 +139,7 @@ impl Light {
                 let radiance = *intensity / falloff.divisor(distance);
                 Some(LightSample { wi, radiance, pdf: 1.0, delta: true, end })
             }
+            Self::Spot(spot) => spot.sample_li(from),
             Self::Directional { direction, irradiance } => Some(LightSample {
                 wi: -*direction,
                 radiance: *irradiance,
@@ -169,6 +176,7 @@ impl Light {
                 let ray = Ray::new(*p, warp::square_to_uniform_sphere(u_dir));
                 EmissionSample { ray, weight: *intensity * (4.0 * PI) }
             }
+            Self::Spot(spot) => spot.sample_emission(u_dir),
             Self::Directional { direction, irradiance } => {
                 emission_from_infinity(geometry, *direction, *irradiance, u_pos)
             }
@@ -189,7 +197,7 @@ impl Light {
 
     /// Whether it has no size, so that only a look straight at it finds it.
     pub fn is_delta(&self) -> bool {
-        matches!(self, Self::Point { .. } | Self::Directional { .. })
+        matches!(self, Self::Point { .. } | Self::Spot(_) | Self::Directional { .. })
     }
 
     /// The power it sends into the scene, in watts; infinite for an endless surface.
@@ -197,6 +205,7 @@ impl Light {
         let (_, radius) = ball(geometry);
         match self {
             Self::Point { intensity, .. } => *intensity * (4.0 * PI),
+            Self::Spot(spot) => spot.power(),
             Self::Directional { irradiance, .. } => *irradiance * (PI * radius * radius),
             Self::Area { prim, emission } => {
                 (emission.front + emission.back) * (PI * geometry.area(*prim) as f32)
