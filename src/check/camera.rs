@@ -174,6 +174,7 @@ impl Check<'_> {
             self.report(CheckError::FilmSize { width, height, used: film.size.span });
         }
         self.positive("the width of the sensor", film.sensor, Type::Length);
+        self.positive("the width of a pixel by its height", film.pixel_aspect, Type::Number);
         if let Some(Spanned { value: [left, top, right, bottom], span }) = film.crop
             && film.crop_in_pixels().is_none_or(|[_, _, width, height]| width == 0 || height == 0)
         {

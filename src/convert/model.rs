@@ -38,6 +38,8 @@ pub struct Camera {
     pub angle: f64,
     /// Whether `angle` is the horizontal field of view rather than the vertical one.
     pub is_across: bool,
+    /// The width of a pixel by its height.
+    pub pixel_aspect: f64,
     /// Width and height in pixels; some dialects leave them to the command line.
     pub size: Option<(u32, u32)>,
     pub lens: Option<Lens>,

@@ -154,6 +154,8 @@ pub struct Film {
     pub crop: Option<Spanned<[f64; 4]>>,
     /// The pixel filter.
     pub filter: Spanned<Filter>,
+    /// The width of a pixel by its height.
+    pub pixel_aspect: Spanned<f64>,
     /// The width in metres; the height follows from the pixels.
     pub sensor: Spanned<f64>,
     /// Brightness of the picture.
@@ -170,6 +172,12 @@ impl Film {
         let edge = |share: f64, count: u32| (share * f64::from(count)).round() as u32;
         let (x, y) = (edge(left, width), edge(top, height));
         Some([x, y, edge(right, width).saturating_sub(x), edge(bottom, height).saturating_sub(y)])
+    }
+
+    /// The width of the picture by its height.
+    pub fn aspect(&self) -> f64 {
+        let (width, height) = self.size.value;
+        self.pixel_aspect.value * f64::from(width) / f64::from(height)
     }
 }
 

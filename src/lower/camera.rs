@@ -29,7 +29,7 @@ pub fn camera(
 ) -> Result<Seen, LowerError> {
     let forward = camera.direction.value.normalize();
     let (width, height) = camera.film.size.value;
-    let aspect = f64::from(width) / f64::from(height);
+    let aspect = camera.film.aspect();
     let tan_half_fov_x = tan_half_fov_x(camera, aspect);
     let Focused { spec: lens, distance } = lens::lens(camera, tan_half_fov_x, aspect, loaded)?;
     let spec = CameraSpec {

@@ -1,9 +1,11 @@
 //! All that can be hit, behind one interface: the tree over what is bounded, a list of what is not.
 
+mod gradient;
 mod sampling;
 mod surface;
 
-pub use sampling::{AreaSample, DirectionSample};
+pub use gradient::Gradient;
+pub use sampling::{AreaSample, DirectionSample, Outline};
 
 use super::accel::{Items, Wide, partition};
 use super::shape::solid::{PlacedSolid, SolidHit};

@@ -139,6 +139,10 @@ const UNIT: Range = Range::closed(0.0, 1.0);
 const FILM: &[Field] = &[
     field("size", Type::Size, "Pixels, width by height.").or_size(640, 480),
     field("crop", Type::Block("crop"), "The part that is rendered.").like("{ left: 0.25, right: 0.75 }"),
+    field("pixel_aspect", Type::Number, "The width of a pixel by its height.")
+        .or(1.0)
+        .within(SIZE)
+        .like("1.2"),
     field("filter", Type::Filter, "How pixels share a sample.").or_word("tent(1px)"),
     field("sensor", Type::Length, "Its width.").or(0.036).within(SIZE).like("36mm"),
     field("exposure", Type::Exposure, "Steps brighter, `auto` for a log-average of 0.18, or a `photo`.")

@@ -116,6 +116,9 @@ impl Type {
     /// The laws of fading that have a name.
     pub const FALLOFFS: &'static [&'static str] = &["physical", "none"];
 
+    /// The blocks that are projections of pictures.
+    const PROJECTIONS: &'static [&'static str] = &["planar", "spherical", "cubic"];
+
     /// The types that a `param` or a function may name.
     pub const NAMED: &'static [NamedType] = &[
         named("int", Self::Int, "A whole number."),
@@ -272,9 +275,9 @@ impl Type {
             Self::Method => block.kind == "classic",
             Self::Lens => block.area == Area::Camera && !matches!(block.kind, "film" | "photo" | "crop"),
             Self::Exposure => block.kind == "photo",
-            Self::Projection => block.kind == "planar",
+            Self::Projection => Self::PROJECTIONS.contains(&block.kind),
             Self::Texture | Self::ColorInput | Self::NumberInput => {
-                block.area == Area::Texture && block.kind != "planar"
+                block.area == Area::Texture && !Self::PROJECTIONS.contains(&block.kind)
             }
             Self::SkyInput | Self::Heights => block.kind == "image",
             Self::Material => block.area == Area::Material,

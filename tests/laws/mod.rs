@@ -1,5 +1,6 @@
 //! What physics and sampling theory promise.
 
+mod choice;
 mod lamps;
 mod light;
 mod scattering;

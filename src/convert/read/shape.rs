@@ -12,6 +12,13 @@ use std::f64::consts::TAU;
 /// Corners of the circle that a torus is turned from.
 const TORUS_CORNERS: usize = 64;
 
+/// What some programs write after the file of a mesh.
+#[derive(Default)]
+struct Written {
+    scale: Option<DVec3>,
+    offset: Option<DVec3>,
+}
+
 impl Reader<'_> {
     /// A ball; one that moves between two centres stands half way.
     pub(super) fn sphere(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
@@ -111,8 +118,12 @@ impl Reader<'_> {
         let radius = self.positive(fields, "radius", "its radius");
         let foot = self.log.take_any(fields, &["center", "position", "origin"]);
         let height = self.log.number(fields, "length v", "its height");
-        let end = self.log.vector(fields, "endpoint", "its end");
-        let foot = foot.map_or(DVec3::ZERO, |field| {
+        let mut ends = self.log.take_all(fields, "endpoint");
+        for end in &ends {
+            self.log.mapped(&end.span, "one of its ends");
+        }
+        let end = ends.pop().map(|end| end.vector());
+        let foot = foot.or(ends.pop()).map_or(DVec3::ZERO, |field| {
             self.log.mapped(&field.span, "its foot");
             field.vector()
         });
@@ -153,13 +164,12 @@ impl Reader<'_> {
     pub(super) fn mesh(&mut self, fields: &mut Fields<'_>) -> Option<Object> {
         let head = fields.head.clone();
         self.log.mapped(&head, "`mesh`");
-        let file = self.mesh_file(fields);
-        let scale = self.mesh_scale(fields);
+        let (file, written) = self.mesh_file(fields)?;
+        let scale = self.mesh_scale(fields).or(written.scale).unwrap_or(DVec3::ONE);
         let offset_role = ["offset", "center", "position"].into_iter().find(|role| fields.has(role));
-        let offset =
-            offset_role.and_then(|role| self.log.vector(fields, role, "`translate`")).unwrap_or_default();
-        let mut object =
-            Object::new(Shape::Mesh { file: file?, smooth: self.is_smooth(fields) }, head.clone());
+        let offset = offset_role.and_then(|role| self.log.vector(fields, role, "`translate`"));
+        let offset = offset.or(written.offset).unwrap_or_default();
+        let mut object = Object::new(Shape::Mesh { file, smooth: self.is_smooth(fields) }, head.clone());
         let mut mirror = DVec3::ONE;
         if let Some(flag) = self.log.take(fields, "Y_inverse") {
             self.log.mapped(&flag.span, "a mirrored z axis, which is what it does in spite of its name");
@@ -175,11 +185,12 @@ impl Reader<'_> {
         Some(object)
     }
 
-    /// The file after `obj_file`, or where a program has no key, the one word there is.
-    fn mesh_file(&mut self, fields: &mut Fields<'_>) -> Option<Asset> {
+    /// The file after `obj_file`, or where a program has no key, the one word there is; and what is written after it.
+    fn mesh_file(&mut self, fields: &mut Fields<'_>) -> Option<(Asset, Written)> {
         if fields.has("obj_file") {
             let field = self.log.take(fields, "obj_file")?;
-            return self.obj_file(&field);
+            let file = self.obj_file(&field)?;
+            return Some((file, self.after_mesh_file(&field)));
         }
         let is_path = |field: &&Field<'_>| field.role.is_empty() && field.key.contains('.');
         let keyless =
@@ -188,7 +199,7 @@ impl Reader<'_> {
             Some((key, span)) => {
                 self.log.mapped(&span, "`file`");
                 fields.forget(&key);
-                Some(self.asset_at(&key, &span))
+                Some((self.asset_at(&key, &span), Written::default()))
             }
             None => {
                 self.log.need(fields, "obj_file");
@@ -197,12 +208,31 @@ impl Reader<'_> {
         }
     }
 
-    fn mesh_scale(&mut self, fields: &mut Fields<'_>) -> DVec3 {
+    /// `obj_file FILE s x y z`: a factor and an offset without keys.
+    fn after_mesh_file(&mut self, field: &Field<'_>) -> Written {
+        let numbers: Vec<f64> = field.numbers.iter().map(|number| number.value).collect();
+        let written = match numbers[..] {
+            [] => return Written::default(),
+            [s] => Written { scale: Some(DVec3::splat(s)), offset: None },
+            [x, y, z] => Written { scale: None, offset: Some(DVec3::new(x, y, z)) },
+            [s, x, y, z] => Written { scale: Some(DVec3::splat(s)), offset: Some(DVec3::new(x, y, z)) },
+            _ => {
+                self.log.differs("numbers after the file of a mesh", &field.span, "nothing was made of them");
+                return Written::default();
+            }
+        };
+        self.log.approximated(&field.span, "`file`, and the numbers as a factor and an offset");
+        let help = "they were taken as a factor, an offset, or both in this order";
+        self.log.differs("numbers after the file of a mesh", &field.span, help);
+        written
+    }
+
+    fn mesh_scale(&mut self, fields: &mut Fields<'_>) -> Option<DVec3> {
         if let Some(field) = self.log.take(fields, "scale") {
             self.log.mapped(&field.span, "`scale`");
-            return DVec3::splat(field.number(0));
+            return Some(DVec3::splat(field.number(0)));
         }
-        self.log.vector(fields, "scaling", "`scale`").unwrap_or(DVec3::ONE)
+        self.log.vector(fields, "scaling", "`scale`")
     }
 
     /// Whether normals are interpolated. The course and MIT's edition of 2004 have flat triangles, that of 2016 smooth

@@ -2,7 +2,8 @@
 
 use super::surface::interpolate_point;
 use super::{Geometry, Prim, PrimId, SurfacePoint};
-use crate::math::{Vec2, Vec3, warp};
+use crate::math::{Bounds, Vec2, Vec3, warp};
+use crate::render::shape::SolidKind;
 use crate::render::shape::triangle::cross_of_edges;
 
 /// A point drawn by area.
@@ -37,7 +38,32 @@ pub struct DirectionSample {
     pub pdf: f32,
 }
 
+/// Where a primitive lies, and which way it faces.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Outline {
+    /// A box that holds it.
+    pub bounds: Bounds,
+    /// The unit normal of what is flat.
+    pub n: Option<Vec3>,
+}
+
 impl Geometry {
+    /// Where a triangle, disk or sphere lies; `None` for a plane.
+    pub fn outline(&self, prim: PrimId) -> Option<Outline> {
+        match self.prim(prim) {
+            Prim::Triangle(mesh, corners) => {
+                let corners = mesh.corners(corners);
+                let n = cross_of_edges(corners).normalize().as_vec3().normalize();
+                Some(Outline { bounds: Bounds::of(corners), n: Some(n) })
+            }
+            Prim::Solid(solid) => {
+                let is_flat = matches!(solid.solid().kind, SolidKind::Disk);
+                let n = is_flat.then(|| solid.sample_area(Vec2::ZERO).n);
+                Some(Outline { bounds: solid.bounds()?, n })
+            }
+        }
+    }
+
     /// The area of a primitive in square metres; infinite for planes.
     pub fn area(&self, prim: PrimId) -> f64 {
         match self.prim(prim) {

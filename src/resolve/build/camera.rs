@@ -16,6 +16,7 @@ impl<'a> Resolver<'a> {
     pub(in crate::resolve) fn camera(&mut self, object: &'a Object, env: &Env<'a>) {
         let block = schema::block("camera").expect("declared in the registry");
         let fields = self.read(block, object.kind.span, &object.body, env);
+        self.scene.intent.camera.get_or_insert(object.span);
         self.unique_camera(object);
         if let Some(camera) = self.camera_of(&fields, object) {
             self.scene.cameras.push(camera);
@@ -65,7 +66,8 @@ impl<'a> Resolver<'a> {
         if !lens.has_fov() {
             if let Some((name, lens)) = name.zip(fields.span("lens")) {
                 let (one, other, first) = (name.to_owned(), "lens".to_owned(), fields.span(name)?);
-                self.report(Error::ConflictingFields { one, other, first, second: lens });
+                let help = "this lens has a view of its own: leave the field of view out".to_owned();
+                self.report(Error::ConflictingFields { help, one, other, first, second: lens });
             }
             return None;
         }
@@ -73,7 +75,8 @@ impl<'a> Resolver<'a> {
             (Some(name), Some(length)) => {
                 let (one, other) = (name.to_owned(), "focal_length".to_owned());
                 let first = fields.span(name)?;
-                self.report(Error::ConflictingFields { one, other, first, second: length.span });
+                let help = "keep one of them".to_owned();
+                self.report(Error::ConflictingFields { help, one, other, first, second: length.span });
                 None
             }
             (Some("fov_x"), None) => fields.number("fov_x").map(|angle| angle.map(Fov::Horizontal)),
@@ -178,7 +181,8 @@ impl<'a> Resolver<'a> {
             let edges = [edge("left")?, edge("top")?, edge("right")?, edge("bottom")?];
             Some(Spanned::new(edges, fields.span("crop")?))
         });
-        Some(Film { size, crop, filter, sensor: fields.number("sensor")?, exposure, tone })
+        let pixel_aspect = fields.number("pixel_aspect")?;
+        Some(Film { size, crop, filter, pixel_aspect, sensor: fields.number("sensor")?, exposure, tone })
     }
 }
 
