@@ -93,6 +93,20 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
     Ok(Picture { width, height, pixels })
 }
 
+/// The brightness of each pixel as it is stored, without a curve, cut to [0, 1]: 16 bits of a channel are kept.
+///
+/// # Errors
+/// As [`decode`].
+pub fn brightness(bytes: &[u8]) -> Result<Vec<f32>, PictureError> {
+    size(bytes)?;
+    let image = reader(bytes)?.decode()?.to_luma32f();
+    let bad = image.pixels().filter(|p| !p.0[0].is_finite()).count();
+    match bad {
+        0 => Ok(image.pixels().map(|p| p.0[0].clamp(0.0, 1.0)).collect()),
+        bad => Err(PictureError::NotFinite(bad)),
+    }
+}
+
 /// How much there is of each pixel, in [0, 1], as a linear grey; `None` for a picture that does not say.
 ///
 /// # Errors

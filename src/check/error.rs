@@ -117,6 +117,17 @@ pub enum CheckError {
         #[label("this object")]
         object: Span,
     },
+    #[error("a scene has one sky, and this is the second")]
+    #[diagnostic(
+        code(snell::check::second_sky),
+        help("keep one of them: an `environment`, or a `light sun_sky`")
+    )]
+    SecondSky {
+        #[label("another sky")]
+        second: Span,
+        #[label("the first")]
+        first: Span,
+    },
 
     // ── Light and matter ───────────────────────────────────────────────────────────────────────────────────────
     #[error("an index of refraction of {found} is not of this world")]

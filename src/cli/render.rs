@@ -211,7 +211,8 @@ fn make_ready(
     crate::plan::warn(&plan, &loaded, &mut session.problems);
     let lowered = crate::lower::lower(&loaded, &plan, &camera, &session.files, &mut session.problems)?;
     let build_seconds = start.elapsed().as_secs_f64() - compiled;
-    let settings = settings(args, &checked.render, &plan, &lowered);
+    let settings =
+        Settings { crop: crop_of(args, &camera), ..settings(args, &checked.render, &plan, &lowered) };
     let texts = session.sources.files().iter().map(|file| file.path.clone());
     let inputs = texts.chain(loaded.files).collect();
     let floor = plan.method == ir::Method::Classic && checked.render.classic.floor;
@@ -237,6 +238,12 @@ fn settings(args: &RenderArgs, render: &ir::Render, plan: &Plan, lowered: &Lower
     }
 }
 
+/// What is rendered of the picture: the command line goes before the scene.
+fn crop_of(args: &RenderArgs, camera: &ir::Camera) -> Option<Region> {
+    let written = camera.film.crop_in_pixels();
+    args.crop.or_else(|| written.map(|[x, y, width, height]| Region { x, y, width, height }))
+}
+
 /// What the film and its copies take for a pixel, in bytes: eight streams of three sums, the mean, its error, the file.
 const BYTES_PER_PIXEL: u64 = 8 * 24 + 64;
 
@@ -249,7 +256,7 @@ impl Ready {
         }
         let (width, height) = self.camera.film.size.value;
         let picture = Region { x: 0, y: 0, width, height };
-        let region = args.crop.map_or(picture, |crop| crop.clipped(&picture));
+        let region = self.settings.crop.map_or(picture, |crop| crop.clipped(&picture));
         if region.area() == 0 {
             return Err(format!("the crop lies outside the picture, which has {width} x {height} pixels"));
         }

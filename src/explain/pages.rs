@@ -61,10 +61,12 @@ const PAGES: &[Page] = pages! {
         not_positive: Error,
         nothing_in_view: Warning,
         object_hidden: Warning,
+        open_ends: Warning,
         open_glass: Warning,
         out_of_range: Error,
         phong_energy: Warning,
         short_paths: Warning,
+        second_sky: Error,
         singular_transform: Error,
         squeezing_transform: Warning,
         thin_inside: Error,
@@ -118,6 +120,7 @@ const PAGES: &[Page] = pages! {
         up_not_perpendicular: Warning,
     }
     load {
+        bad_lens: Error,
         bad_mesh: Error,
         bad_picture: Error,
         mesh_note: Warning,
@@ -128,6 +131,7 @@ const PAGES: &[Page] = pages! {
     }
     lower {
         bad_focus: Error,
+        too_wide: Error,
     }
     plan {
         classic_only: Error,

@@ -2,7 +2,7 @@
 
 mod texture;
 
-use crate::asset::ModelMaterial;
+use crate::asset::{ModelMaterial, picture};
 use crate::ir::light::{Brightness, EnvironmentRadiance};
 use crate::ir::material::{MaterialKind, MetalColor};
 use crate::ir::{self, Handle};
@@ -266,6 +266,19 @@ impl<'a> Materials<'a> {
             scale: environment.scale.value as f32,
             rotation: environment.rotation as f32,
         })
+    }
+
+    /// The brightness of a picture as it is stored, from 0 to 1: how many in a row, and row by row.
+    pub fn heights(&mut self, texture: Handle<ir::Texture>) -> Option<(usize, Vec<f32>)> {
+        let file = self.loaded.picture(texture)?.clone();
+        let bytes = self.files.read(&file.path).map_err(|error| error.to_string());
+        match bytes.and_then(|bytes| picture::brightness(&bytes).map_err(|error| error.to_string())) {
+            Ok(values) => Some((file.width as usize, values)),
+            Err(reason) => {
+                self.failed.push(LoadError::BadPicture { name: file.name.clone(), reason, used: file.span });
+                None
+            }
+        }
     }
 }
 

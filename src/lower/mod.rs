@@ -5,11 +5,15 @@
 
 mod camera;
 pub mod curve;
+mod daylight;
 mod error;
+mod heightfield;
+mod lens;
 mod light;
 mod material;
 mod object;
 mod place;
+mod sweep;
 pub mod tessellate;
 
 use crate::diag::Problems;
@@ -65,6 +69,7 @@ pub fn lower(
     }
     let lights = loaded.scene.lights.iter().filter_map(|light| lowering.light(light)).collect();
     let environment = loaded.scene.environment.as_ref().and_then(|e| lowering.materials.environment(e));
+    let environment = environment.or_else(|| loaded.scene.lights.iter().find_map(light::sky));
     let pixel = match plan.method {
         ir::Method::Classic => loaded.scene.render.classic.pixel,
         _ => ir::PixelPoint::Filter,

@@ -3,7 +3,7 @@
 use super::light::radiance;
 use super::place::{is_similarity, object_bounds};
 use super::tessellate::Triangles;
-use super::{Lowering, curve};
+use super::{Lowering, curve, heightfield, sweep};
 use crate::ir::{self, Object, RevolveMethod, ShapeKind};
 use crate::load::LoadedMesh;
 use crate::math::{DAffine3, DMat3, DVec2, DVec3};
@@ -13,6 +13,8 @@ use std::sync::Arc;
 
 /// Where a tessellation may leave its shape, as a share of the shape's size, unless the scene says otherwise.
 const RELATIVE_TOLERANCE: f64 = 1e-3;
+/// The same for tubes, as a share of their radius.
+const TUBE_TOLERANCE: f64 = 5e-3;
 /// The same for outlines, whose facets show at the silhouette of every pixel row.
 const OUTLINE_TOLERANCE: f64 = 1e-4;
 
@@ -51,7 +53,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn form(&self, object: &Object) -> Option<Form> {
+    fn form(&mut self, object: &Object) -> Option<Form> {
         let scene = self.loaded.scene;
         let shape = &scene.shapes[object.shape];
         let emits = object.material.or(shape.material).is_some_and(|m| self.materials.emits(m));
@@ -95,6 +97,22 @@ impl Lowering<'_> {
                 let object_from_solid = ir::shape::upright(axis.value, *base);
                 Form::Exact { kind: SolidKind::Frustum(frustum), object_from_solid }
             }
+            ShapeKind::Sweep { path, radius, end_radius, caps, closed, tolerance } => {
+                let radii = [radius.value, end_radius.unwrap_or(*radius).value];
+                let tube = sweep::Tube { path, radii, caps: *caps, closed: *closed };
+                // A tube is seen by its width, however long it is.
+                let width = radii[0].max(radii[1]) * TUBE_TOLERANCE;
+                let tolerance = tolerance.map_or(width, |tolerance| tolerance.value);
+                Form::Triangles(sweep::tube(&tube, tolerance))
+            }
+            ShapeKind::Heightfield { heights, size, smooth } => {
+                let grid = match heights {
+                    ir::Heights::Grid { width, values, .. } => (*width, values.clone()),
+                    ir::Heights::Image(texture) => self.materials.heights(texture.value)?,
+                };
+                let heights = heightfield::Heights { width: grid.0, values: &grid.1, size: size.value };
+                Form::Triangles(heightfield::surface(&heights, *smooth))
+            }
             ShapeKind::Torus { center, normal, radius, tube } => {
                 let kind = SolidKind::Torus(Torus { major: radius.value, minor: tube.value });
                 Form::Exact { kind, object_from_solid: ir::shape::upright(normal.value, *center) }
@@ -122,8 +140,9 @@ impl Lowering<'_> {
                     }
                 }
             }
-            ShapeKind::Extrude { outline, holes, depth } => {
-                let tolerance = self.size(object) * OUTLINE_TOLERANCE;
+            ShapeKind::Extrude { outline, holes, depth, tolerance } => {
+                let usual = self.size(object) * OUTLINE_TOLERANCE;
+                let tolerance = tolerance.map_or(usual, |tolerance| tolerance.value);
                 Form::Triangles(Triangles::extrude(outline, holes, depth.value, tolerance))
             }
         })
@@ -148,11 +167,16 @@ impl Lowering<'_> {
         written: Option<ir::Handle<ir::Material>>,
         source: SourceId,
     ) {
+        // The power of a lamp is that of all its parts.
+        let whole = || {
+            let parts = mesh.model.parts.iter();
+            parts.map(|part| area(&Triangles::part(part, scale, smooth), &object.world_from_object)).sum()
+        };
         for part in &mesh.model.parts {
             let triangles = Triangles::part(part, scale, smooth);
             let material = match (written, part.material) {
                 (None, Some(index)) => self.materials.of_model(mesh, index),
-                _ => self.material(written, || area(&triangles, &object.world_from_object)),
+                _ => self.material(written, whole),
             };
             self.mesh(&triangles, &object.world_from_object, material, source);
         }

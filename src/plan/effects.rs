@@ -134,10 +134,10 @@ impl Found<'_> {
     }
 
     fn camera(&mut self, camera: &Camera) {
-        if let Lens::Thin { radius, .. } = &camera.lens
-            && radius.value > 0.0
-        {
-            self.add(Effect::LensBlur, radius.span);
+        match &camera.lens {
+            Lens::Thin { radius, .. } if radius.value > 0.0 => self.add(Effect::LensBlur, radius.span),
+            Lens::Prescription { file, .. } => self.add(Effect::LensBlur, file.span),
+            _ => {}
         }
     }
 
@@ -244,10 +244,14 @@ impl Found<'_> {
         let scene = self.scene;
         for light in &scene.lights {
             match light.kind {
-                LightKind::Sphere { .. } | LightKind::Rect { .. } => {
+                LightKind::Sphere { .. } | LightKind::Rect { .. } | LightKind::Disk { .. } => {
                     self.add(Effect::SoftShadows, light.span)
                 }
-                LightKind::Point { .. } | LightKind::Directional { .. } => {}
+                LightKind::SunSky(_) => {
+                    self.add(Effect::SoftShadows, light.span);
+                    self.add(Effect::Environment, light.span);
+                }
+                LightKind::Point { .. } | LightKind::Spot { .. } | LightKind::Directional { .. } => {}
             }
         }
         if let Some(used) = self.of(Effect::MeshLights) {

@@ -127,7 +127,7 @@ fn classic_only(loaded: &Loaded<'_>, problems: &mut Problems) {
         }
     }
     for light in &scene.lights {
-        if let LightKind::Point { falloff, .. } = light.kind
+        if let Some(falloff) = light.kind.falloff()
             && falloff.value != LightKind::PHYSICAL
         {
             report("such a falloff", falloff.span);
@@ -138,7 +138,10 @@ fn classic_only(loaded: &Loaded<'_>, problems: &mut Problems) {
 /// A light from infinitely far and a plane without end.
 fn endless(loaded: &Loaded<'_>) -> Option<(Span, Span)> {
     let scene = loaded.scene;
-    let far = scene.lights.iter().find(|light| matches!(light.kind, LightKind::Directional { .. }));
+    let far = scene
+        .lights
+        .iter()
+        .find(|light| matches!(light.kind, LightKind::Directional { .. } | LightKind::SunSky(_)));
     let environment = scene.environment.as_ref().map(|environment| environment.span);
     let light = far.map(|light| light.span).or(environment)?;
     let is_plane =

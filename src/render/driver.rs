@@ -3,11 +3,12 @@
 //! A pass is one camera sample a pixel. Its tiles are computed by all threads and merged in their order, so that the
 //! film holds the same bits for any number of threads, and it always holds whole passes.
 
+use super::camera::CameraRay;
 use super::film::{ErrorEstimate, Film, Region, Tile};
 use super::integrator::{Classic, ClassicSettings, Counters, Integrator, Pass, PathTracer, PhotonMapper};
 use super::sampler::Dim;
 use super::world::World;
-use crate::math::Vec2;
+use crate::math::{Rgb, Vec2};
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -252,8 +253,12 @@ fn render_tile<I: Integrator>(integrator: &I, world: &World, region: Region, pas
     let sample = |[x, y]: [u32; 2]| {
         let sampler = pass.camera_sampler(u64::from(y) << 32 | u64::from(x));
         let u_lens = if camera.has_lens() { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
-        let ray = camera.ray([x, y], sampler.get_2d(Dim::Filter), u_lens);
-        integrator.radiance(ray, &sampler, &mut counters)
+        let Some(CameraRay { ray, weight }) = camera.ray([x, y], sampler.get_2d(Dim::Filter), u_lens) else {
+            return Rgb::BLACK;
+        };
+        let radiance = integrator.radiance(ray, &sampler, &mut counters);
+        // What is no radiance stays none, whatever it weighs: the film counts it.
+        if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
     };
     let samples = region.pixels().map(sample).collect();
     (Tile { region, samples }, counters)

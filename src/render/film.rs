@@ -70,7 +70,7 @@ pub struct BadSample {
 pub struct Tile {
     /// Where it lies.
     pub region: Region,
-    /// Radiances, row by row.
+    /// Radiances by their weights, row by row; what is not finite counts as bad.
     pub samples: Vec<Rgb>,
 }
 
@@ -133,7 +133,7 @@ impl Film {
         }
         for tile in tiles {
             for (pixel, &sample) in tile.region.pixels().zip(&tile.samples) {
-                if sample.is_valid() {
+                if sample.is_finite() {
                     let index = self.index(pixel);
                     let sum = &mut self.streams[stream][index];
                     *sum = [0, 1, 2].map(|channel| sum[channel] + f64::from(sample[channel]));

@@ -107,6 +107,12 @@ impl<'a> Aim<'a> {
                 let (dir, pdf) = cones.sample(u_dir, u_target)?;
                 Some(Aimed { ray: Ray::new(*p, dir), power: *intensity / (pdf * pmf), from_infinity: false })
             }
+            Light::Spot(spot) => {
+                let (dir, pdf) = self.cones(spot.p, None).sample(u_dir, u_target)?;
+                let share = spot.share(dir);
+                let power = spot.intensity * (share / (pdf * pmf));
+                (share > 0.0).then(|| Aimed { ray: Ray::new(spot.p, dir), power, from_infinity: false })
+            }
             Light::Area { prim, emission } => {
                 let at = self.world.geometry.sample_area(*prim, u_pos());
                 // Each side of what shines on both gets half of the photons.
@@ -188,6 +194,10 @@ impl<'a> Aim<'a> {
         match light {
             _ if self.targets.is_empty() => 0.0,
             Light::Point { p, intensity, .. } => intensity.luminance() * self.cones(*p, None).total,
+            Light::Spot(spot) => {
+                let to_targets = spot.intensity.luminance() * self.cones(spot.p, None).total;
+                to_targets.min(spot.power().luminance())
+            }
             Light::Area { prim, emission } => {
                 let at = geometry.sample_area(*prim, Vec2::splat(0.5));
                 // Seen from one of its points; others may see more. Which way it faces is not asked.
