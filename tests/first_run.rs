@@ -67,6 +67,13 @@ fn light_that_is_written_badly_may_be_light() {
 }
 
 #[test]
+fn a_call_with_a_mistake_does_not_hide_one_in_the_function() {
+    let ball = "fn ball(r: length) -> object { sphere { radius: rr } }";
+    let expected = set(&["resolve::argument_count", "resolve::unknown_name"]);
+    assert_eq!(codes(&[CAMERA, LIGHT, ball, "place ball(1m, 2m)"]), expected);
+}
+
+#[test]
 fn a_misspelt_name_does_not_hide_that_what_it_means_lacks_its_file() {
     let paper = "let paper = diffuse { color: image(\"weave.png\") }";
     let misspelt = "sphere { radius: 1m, material: papre }";

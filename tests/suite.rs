@@ -14,6 +14,7 @@ mod generate;
 mod hard_cases;
 mod laws;
 mod laws_geometry;
+mod laws_hybrid;
 mod laws_photon;
 mod layers;
 mod meaning;

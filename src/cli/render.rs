@@ -203,6 +203,7 @@ fn make_ready(
         None => None,
         Some(Method::Pt) => Some(ir::Method::Pt),
         Some(Method::Ppm) => Some(ir::Method::Ppm),
+        Some(Method::Hybrid) => Some(ir::Method::Hybrid),
         Some(Method::Classic) => Some(ir::Method::Classic),
         Some(Method::Auto) => Some(crate::plan::suited(&loaded, Some(&camera))),
     };

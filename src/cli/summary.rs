@@ -2,7 +2,7 @@
 
 use super::progress::{duration, percent};
 use crate::plan::Plan;
-use crate::render::{Method, Outcome, StoppedBy};
+use crate::render::{GatherRadius, Method, Outcome, StoppedBy};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -117,6 +117,7 @@ impl Summary<'_> {
         match self.method {
             Method::Pt => "pt",
             Method::Ppm(_) => "ppm",
+            Method::Hybrid(_) => "hybrid",
             Method::Classic(_) => "classic",
         }
     }
@@ -130,6 +131,14 @@ impl Summary<'_> {
                 count(u64::from(ppm.photon_count)),
                 ppm.k,
                 length(f64::from(ppm.radius))
+            ),
+            Method::Hybrid(hybrid) => format!(
+                "hybrid, {} photons a pass, aimed, gathered within {}",
+                count(u64::from(hybrid.photon_count)),
+                match hybrid.radius {
+                    GatherRadius::Meters(radius) => length(f64::from(radius)),
+                    GatherRadius::Pixels(pixels) => format!("{pixels} px"),
+                }
             ),
         }
     }
@@ -146,7 +155,9 @@ impl Summary<'_> {
     fn photon_time(&self) -> String {
         match self.method {
             Method::Pt | Method::Classic(_) => String::new(),
-            Method::Ppm(_) => format!("photons {}, ", duration(self.outcome.stats.prepare_seconds)),
+            Method::Ppm(_) | Method::Hybrid(_) => {
+                format!("photons {}, ", duration(self.outcome.stats.prepare_seconds))
+            }
         }
     }
 
@@ -161,6 +172,7 @@ impl Summary<'_> {
         let (noise, blur) = match self.method {
             Method::Pt | Method::Classic(_) => ("", ""),
             Method::Ppm(_) => ("noise ", "; blur by the gather radius not counted"),
+            Method::Hybrid(_) => ("noise ", "; blur of caustics not counted"),
         };
         format!(
             "{noise}{} (95 %: {} to {}; {} without the worst 0.1 % of pixels){blur}; half of it would take {half}",

@@ -160,6 +160,8 @@ pub enum Method {
     Pt,
     /// Progressive photon mapping.
     Ppm,
+    /// Path tracing, with caustics from photons.
+    Hybrid,
     /// Recursive ray tracing.
     Classic,
 }

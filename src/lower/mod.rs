@@ -21,7 +21,7 @@ use crate::render::camera::Camera;
 use crate::render::integrator::{ClassicSettings, Shading};
 use crate::render::shape::{Mesh, Solid, SourceId};
 use crate::render::world::{Parts, World};
-use crate::render::{Method, PpmSettings};
+use crate::render::{GatherRadius, HybridSettings, Method, PpmSettings};
 use crate::source::{Files, Span};
 pub use error::LowerError;
 use material::Materials;
@@ -91,6 +91,14 @@ fn method(plan: &Plan, classic: &ir::Classic, camera: &camera::Seen) -> Method {
             ambient: classic.ambient,
             lit_backs: classic.lit_backs,
         }),
+        ir::Method::Hybrid => Method::Hybrid(HybridSettings {
+            photon_count: plan.photon_count,
+            k: plan.photon_k,
+            radius: plan.photon_radius.map_or(GatherRadius::Pixels(CAUSTIC_PIXELS_PER_RADIUS), |radius| {
+                GatherRadius::Meters(radius as f32)
+            }),
+            shrink: plan.photon_shrink,
+        }),
         ir::Method::Ppm => Method::Ppm(PpmSettings {
             photon_count: plan.photon_count,
             k: plan.photon_k,
@@ -102,6 +110,9 @@ fn method(plan: &Plan, classic: &ir::Classic, camera: &camera::Seen) -> Method {
 
 /// The first gather radius in pixel footprints, unless the scene says otherwise.
 const PIXELS_PER_RADIUS: f64 = 4.0;
+
+/// The same for caustics in pixel footprints at the point itself: photons are few, aimed, and nothing else is blurred.
+const CAUSTIC_PIXELS_PER_RADIUS: f32 = 1.5;
 
 /// What has been lowered so far.
 struct Lowering<'a> {

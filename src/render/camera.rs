@@ -132,6 +132,11 @@ impl Camera {
         self.lens.is_some()
     }
 
+    /// The angle across a pixel in the middle of the picture, in radians: what it covers grows by that for each metre.
+    pub fn pixel_angle(&self) -> f32 {
+        self.half_width.length() * 2.0 / self.width as f32
+    }
+
     /// A ray through a pixel, counted from the top left; its direction is a unit vector.
     pub fn ray(&self, [x, y]: [u32; 2], u_filter: Vec2, u_lens: Vec2) -> Ray {
         let offset = self.filter.sample(u_filter);

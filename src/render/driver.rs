@@ -18,6 +18,8 @@ pub enum Method {
     Pt,
     /// Progressive photon mapping.
     Ppm(PpmSettings),
+    /// Path tracing, with caustics from photons.
+    Hybrid(HybridSettings),
     /// Recursive ray tracing.
     Classic(ClassicSettings),
 }
@@ -33,6 +35,28 @@ pub struct PpmSettings {
     pub radius: f32,
     /// The share α of photons kept as the radius shrinks, in (0, 1) (Knaus & Zwicker 2011).
     pub shrink: f64,
+}
+
+/// Settings of the caustics beside path tracing.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct HybridSettings {
+    /// Photons emitted in each pass.
+    pub photon_count: u32,
+    /// The most photons gathered at a point: a bound on the time it takes, where light is dense.
+    pub k: u32,
+    /// The largest radius of the first pass.
+    pub radius: GatherRadius,
+    /// The share α of photons kept as the radius shrinks, in (0, 1) (Knaus & Zwicker 2011).
+    pub shrink: f64,
+}
+
+/// How far photons are gathered.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum GatherRadius {
+    /// Equally far everywhere, in metres.
+    Meters(f32),
+    /// In widths of what a pixel covers at the point.
+    Pixels(f32),
 }
 
 /// When to stop: at whichever comes first. If none is set, after one pass.
@@ -66,7 +90,7 @@ pub trait Monitor: Sync {
     /// A pass was added to the film.
     fn pass_done(&self, progress: &Progress);
 
-    /// Whether to stop at once; the pass under way is dropped whole.
+    /// Whether to stop at once; the pass under way is dropped whole. Once so, always so.
     fn cancelled(&self) -> bool {
         false
     }
@@ -135,6 +159,9 @@ pub struct Outcome {
 pub fn render(world: &World, settings: &Settings, monitor: &dyn Monitor) -> Outcome {
     match settings.method {
         Method::Pt => run(PathTracer::new(world, settings.max_depth), world, settings, monitor),
+        Method::Hybrid(hybrid) => {
+            run(PathTracer::with_caustics(world, hybrid, settings.max_depth), world, settings, monitor)
+        }
         Method::Classic(classic) => {
             run(Classic::new(world, classic, settings.max_depth), world, settings, monitor)
         }
@@ -168,7 +195,7 @@ fn run<I: Integrator>(
         let pass = Pass { index: film.passes(), seed: settings.seed };
 
         let prepare = Instant::now();
-        integrator.begin_pass(pass, &mut stats.counters);
+        integrator.begin_pass(pass, &mut stats.counters, &|| monitor.cancelled());
         stats.prepare_seconds += prepare.elapsed().as_secs_f64();
 
         let camera = Instant::now();

@@ -31,6 +31,10 @@ pub enum Dim {
     PhotonDirection,
     /// At which wavelength light goes through glass that spreads colours.
     Wavelength,
+    /// Towards which of the targets.
+    PhotonTarget,
+    /// Whether a direction counts as sharply or as widely scattered.
+    Share(u32),
 }
 
 impl Dim {
@@ -43,12 +47,14 @@ impl Dim {
             Self::PhotonLight => 2,
             Self::PhotonPosition => 3,
             Self::PhotonDirection => 4,
+            Self::PhotonTarget => 12,
             Self::Wavelength => 10,
             Self::Lobe(depth) => at(5, depth),
             Self::Bsdf(depth) => at(6, depth),
             Self::LightChoice(depth) => at(7, depth),
             Self::Light(depth) => at(8, depth),
             Self::Roulette(depth) => at(9, depth),
+            Self::Share(depth) => at(11, depth),
         }
     }
 }

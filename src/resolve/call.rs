@@ -64,7 +64,6 @@ impl<'a> Resolver<'a> {
     ) -> Value<'a> {
         let definition = function.definition;
         let name = &definition.name;
-        self.called.insert(name.span);
         if self.calls.contains(&name.span) {
             let error = Error::Recursion { name: name.value.clone(), called: used, defined: name.span };
             return self.poison(error);
@@ -75,6 +74,7 @@ impl<'a> Resolver<'a> {
         if !complete {
             return Value::Poison;
         }
+        self.called.insert(name.span);
         self.trail.push(Step::Call(name, used));
         let value = self.run(function, &scope);
         self.trail.pop();

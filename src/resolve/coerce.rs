@@ -284,10 +284,6 @@ impl<'a> Resolver<'a> {
 
 /// The report of a word that is none of those that may stand there.
 pub fn unknown_word(word: &str, words: &'static [&'static str], used: Span) -> Error {
-    if words == Type::METHODS && word == "hybrid" {
-        let help = "write `method: auto`, or choose `pt` or `ppm`".to_owned();
-        return Error::NotYet { word: word.to_owned(), used, help };
-    }
     let wanted = Type::Choice(words).noun();
     let ours = Type::foreign_word(word, words)
         .or_else(|| spelled_out(word).and_then(|unit| words.iter().copied().find(|word| *word == unit)));

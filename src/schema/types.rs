@@ -108,7 +108,7 @@ const fn named(name: &'static str, ty: Type, doc: &'static str) -> NamedType {
 
 impl Type {
     /// The integrators.
-    pub const METHODS: &'static [&'static str] = &["auto", "pt", "ppm", "classic"];
+    pub const METHODS: &'static [&'static str] = &["auto", "pt", "ppm", "hybrid", "classic"];
     /// The laws of fading that have a name.
     pub const FALLOFFS: &'static [&'static str] = &["physical", "none"];
 

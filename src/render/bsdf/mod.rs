@@ -233,6 +233,11 @@ impl Bsdf {
         self.lobes().iter().any(|lobe| !lobe.is_specular())
     }
 
+    /// About how much light it sends on, seen from `wo`: the sum over the lobes.
+    pub fn albedo(&self, wo: Vec3) -> f32 {
+        self.view(wo).map_or(0.0, |view| self.lobes().iter().map(|lobe| lobe.albedo(view.wo)).sum())
+    }
+
     /// Whether [`Self::sample`] looks at `u_lobe`: not with a single lobe that only reflects.
     pub fn has_choice(&self) -> bool {
         !matches!(self.lobes(), [lobe] if !lobe.has_choice())

@@ -48,6 +48,14 @@ pub struct Outline {
 }
 
 impl Geometry {
+    /// A box that holds a primitive; `None` for what has no end.
+    pub fn prim_bounds(&self, prim: PrimId) -> Option<Bounds> {
+        match self.prim(prim) {
+            Prim::Triangle(mesh, corners) => Some(Bounds::of(mesh.corners(corners))),
+            Prim::Solid(solid) => solid.bounds(),
+        }
+    }
+
     /// Where a triangle, disk or sphere lies; `None` for a plane.
     pub fn outline(&self, prim: PrimId) -> Option<Outline> {
         match self.prim(prim) {

@@ -70,7 +70,7 @@ impl<'a> Classic<'a> {
 }
 
 impl Integrator for Classic<'_> {
-    fn begin_pass(&mut self, _: Pass, _: &mut Counters) {}
+    fn begin_pass(&mut self, _: Pass, _: &mut Counters, _: &(dyn Fn() -> bool + Sync)) {}
 
     fn radiance(&self, ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
         let mut radiance = Rgb::BLACK;

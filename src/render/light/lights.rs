@@ -176,6 +176,11 @@ impl Lights {
         if own > 0.0 { far * (own / all) * pdf } else { 0.0 }
     }
 
+    /// Whether points of a shining primitive are ever drawn, and photons leave it.
+    pub fn draws(&self, prim: PrimId) -> bool {
+        self.by_prim.contains_key(&prim)
+    }
+
     /// Every light.
     pub fn all(&self) -> &[Light] {
         &self.lights
@@ -190,6 +195,9 @@ impl Lights {
 
     /// The probabilities of lights with a place and of those at infinity; both 0 where none shines.
     fn shares(&self, from: &Viewpoint) -> (f32, f32) {
+        if self.distant.is_empty() {
+            return if self.emitters.is_empty() { (0.0, 0.0) } else { (1.0, 0.0) };
+        }
         let near = self.tree.importance(from);
         let far: f32 = self
             .distant

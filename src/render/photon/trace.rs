@@ -30,10 +30,18 @@ pub fn gathers(lobe: &Lobe) -> bool {
 
 /// Emits `count` photons and follows them through the scene; what they leave on surfaces, in the order of emission.
 ///
-/// Light is chosen by power. `max_depth` bounds the vertices of a path from the light to the camera.
-pub fn trace_photons(world: &World, pass: Pass, count: u32, max_depth: u32) -> (Vec<Photon>, Counters) {
+/// Light is chosen by power. `max_depth` bounds the vertices of a path from the light to the camera. Once `cancelled`, no
+/// more are emitted.
+pub fn trace_photons(
+    world: &World,
+    pass: Pass,
+    count: u32,
+    max_depth: u32,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> (Vec<Photon>, Counters) {
     let chunks: Vec<_> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
+        .filter(|_| !cancelled())
         .map(|chunk| {
             let mut tracer = Tracer { world, max_depth, photons: Vec::new(), rays: 0 };
             for photon in chunk * CHUNK..count.min((chunk + 1) * CHUNK) {
