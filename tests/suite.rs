@@ -26,4 +26,5 @@ mod robust;
 mod robust_syntax;
 mod silhouettes;
 mod snapshots;
+mod study;
 mod support;
