@@ -27,4 +27,5 @@ mod robust;
 mod robust_syntax;
 mod silhouettes;
 mod snapshots;
+mod study;
 mod support;

@@ -3,6 +3,8 @@
 //! A pass is one camera sample a pixel. Its tiles are computed by all threads and merged in their order, so that the
 //! film holds the same bits for any number of threads, and it always holds whole passes.
 
+mod stop;
+
 use super::camera::CameraRay;
 use super::film::{ErrorEstimate, Film, Region, Tile};
 use super::integrator::{Classic, ClassicSettings, Counters, Integrator, Pass, PathTracer, PhotonMapper};
@@ -11,6 +13,7 @@ use super::world::World;
 use crate::math::{Rgb, Vec2};
 use rayon::prelude::*;
 use std::time::Instant;
+use stop::Stopping;
 
 /// The way light is simulated.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -65,9 +68,9 @@ pub enum GatherRadius {
 pub struct Stop {
     /// After so many passes.
     pub passes: Option<u32>,
-    /// After so many seconds; the pass under way is finished.
+    /// After so many seconds. A pass that would end late is not begun, but for the first.
     pub seconds: Option<f64>,
-    /// When the picture's estimated error is below this.
+    /// When the error of the picture is below this, by the upper end of its interval.
     pub error: Option<f64>,
 }
 
@@ -173,10 +176,6 @@ pub fn render(world: &World, settings: &Settings, monitor: &dyn Monitor) -> Outc
 /// Tiles of 16 × 16 pixels: many enough to balance threads, large enough to keep nearby paths together.
 const TILE_SIDE: u32 = 16;
 
-/// The first pass after which the error is looked at; then at each doubling, because stopping as soon as an estimate
-/// happens to be low would favour pictures that underrate their error.
-const FIRST_ERROR_CHECK: u32 = 16;
-
 fn run<I: Integrator>(
     mut integrator: I,
     world: &World,
@@ -189,8 +188,9 @@ fn run<I: Integrator>(
     let tiles = region.tiles(TILE_SIDE);
     let mut film = Film::new(region);
     let mut stats = Stats::default();
+    let mut stopping = Stopping::new(settings.stop);
     let stopped_by = loop {
-        if let Some(reason) = reason_to_stop(&settings.stop, &film, start.elapsed().as_secs_f64()) {
+        if let Some(reason) = stopping.reason(&film, start.elapsed().as_secs_f64()) {
             break reason;
         }
         let pass = Pass { index: film.passes(), seed: settings.seed };
@@ -207,7 +207,7 @@ fn run<I: Integrator>(
 
         let (samples, counters): (Vec<Tile>, Vec<Counters>) = done.into_iter().unzip();
         counters.into_iter().for_each(|tile| stats.counters += tile);
-        film.add_pass(&samples);
+        film.add_blurred_pass(&samples, integrator.blur());
         let seconds = start.elapsed().as_secs_f64();
         monitor.pass_done(&Progress { film: &film, seconds, counters: stats.counters });
     };
@@ -216,20 +216,6 @@ fn run<I: Integrator>(
     stats.bad_samples = film.bad_count();
     stats.seconds = start.elapsed().as_secs_f64();
     Outcome { error: film.error(), film, stats, stopped_by }
-}
-
-/// Whether the film is good enough, or time is up.
-fn reason_to_stop(stop: &Stop, film: &Film, seconds: f64) -> Option<StoppedBy> {
-    let passes = film.passes();
-    let unset = *stop == Stop::default();
-    if stop.passes.is_some_and(|most| passes >= most) || unset && passes >= 1 {
-        return Some(StoppedBy::Passes);
-    }
-    if stop.seconds.is_some_and(|most| passes >= 1 && seconds >= most) {
-        return Some(StoppedBy::Time);
-    }
-    let error = stop.error.filter(|_| passes >= FIRST_ERROR_CHECK && passes.is_power_of_two())?;
-    film.error().is_some_and(|estimate| estimate.error < error).then_some(StoppedBy::Error)
 }
 
 /// All tiles of a pass, in their order; `None` when cancelled.

@@ -63,6 +63,10 @@ impl Integrator for PathTracer<'_> {
         }
     }
 
+    fn blur(&self) -> f64 {
+        self.caustics.as_ref().map_or(0.0, Caustics::blur)
+    }
+
     fn radiance(&self, mut ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
         let materials = &self.world.materials;
         let mut radiance = Rgb::BLACK;

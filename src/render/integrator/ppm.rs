@@ -44,6 +44,10 @@ impl Integrator for PhotonMapper<'_> {
         *counters += emitted;
     }
 
+    fn blur(&self) -> f64 {
+        self.schedule.shrunk()
+    }
+
     fn radiance(&self, mut ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
         let mut radiance = Rgb::BLACK;
         let mut beta = Rgb::WHITE;

@@ -44,6 +44,11 @@ impl<'a> Caustics<'a> {
         (!aim.is_idle()).then_some(Self { world, aim, settings, max_depth, schedule, map })
     }
 
+    /// What is left of the square of the first pass's radius in this one.
+    pub fn blur(&self) -> f64 {
+        self.schedule.shrunk()
+    }
+
     /// Makes the map of a pass; leaves it unfinished once `cancelled`.
     pub fn begin_pass(&mut self, pass: Pass, counters: &mut Counters, cancelled: &(dyn Fn() -> bool + Sync)) {
         self.schedule.radius2(pass.index);

@@ -31,6 +31,11 @@ impl Schedule {
         self.radius2
     }
 
+    /// What is left of the square of the first radius in the pass last asked for.
+    pub fn shrunk(&self) -> f64 {
+        self.radius2 / self.first
+    }
+
     /// The square of the radius of the pass last asked for.
     pub fn current(&self) -> f64 {
         self.radius2
