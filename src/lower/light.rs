@@ -32,7 +32,7 @@ impl Lowering<'_> {
                 let world_from_object =
                     DAffine3::from_translation(*center - self.center) * DAffine3::from_scale(scale);
                 let texture_from_object = DAffine3::IDENTITY;
-                self.solids.push(Solid {
+                self.shapes.solids.push(Solid {
                     kind: SolidKind::Sphere,
                     world_from_object,
                     texture_from_object,

@@ -72,7 +72,7 @@ fn shining_prims(geometry: &Geometry, materials: &Materials) -> Vec<PrimId> {
     let shines = |material| !materials.emission(material).is_none();
     let triangles = geometry
         .mesh_prims()
-        .filter(|(mesh, _)| shines(mesh.material))
+        .filter(|(material, _)| shines(*material))
         .flat_map(|(_, prims)| prims.map(PrimId));
     let solids = geometry
         .solid_prims()
