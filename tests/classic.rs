@@ -1,6 +1,6 @@
 //! Recursive ray tracing against its own formulas, worked out here a second time, in double precision.
 
-use snell::convert::{Options, Rendition};
+use snell::convert::{Angle, Basis, Options, Rendition};
 use snell::diag::{Problems, Report};
 use snell::math::DVec3;
 use snell::output::{Display, Exposure, Tone};
@@ -9,16 +9,19 @@ use snell::source::{Memory, SourceMap};
 
 /// The picture of a scene as bytes, without a tone curve; or what is wrong with the scene.
 fn render(text: &str) -> Result<Vec<[u8; 3]>, String> {
+    render_with(text, &Memory::default())
+}
+
+fn render_with(text: &str, files: &Memory) -> Result<Vec<[u8; 3]>, String> {
     let (mut sources, mut problems) = (SourceMap::default(), Problems::default());
     let main = sources.add("scene".into(), "scene".into(), text.into()).expect("the text is small");
-    let files = Memory::default();
     let finished = (|| {
-        let scene = snell::compile(&mut sources, &files, main, &[], &mut problems)?;
-        let loaded = snell::load::load(&scene, &sources, &files, &mut problems)?;
+        let scene = snell::compile(&mut sources, files, main, &[], &mut problems)?;
+        let loaded = snell::load::load(&scene, &sources, files, &mut problems)?;
         let camera = scene.cameras.first()?;
         let plan = snell::plan::plan(&loaded, Some(camera), None);
         snell::plan::warn(&plan, &loaded, &mut problems);
-        let lowered = snell::lower::lower(&loaded, &plan, camera, &files, &mut problems)?;
+        let lowered = snell::lower::lower(&loaded, &plan, camera, files, &mut problems)?;
         let stop = Stop { passes: Some(1), ..Stop::default() };
         let settings = Settings { method: lowered.method, max_depth: plan.depth, seed: 0, stop, crop: None };
         let outcome = snell::render::render(&lowered.world, &settings, &());
@@ -161,17 +164,29 @@ fn a_course_scene_is_its_closed_formula_pixel_for_pixel() {
     course().assert_is(&render(COURSE).expect("the scene is right"));
 }
 
+/// What a program of the course has beside its scene: files, and an edition.
+#[derive(Default)]
+pub struct Original {
+    /// Meshes, by the names that the scene has for them.
+    pub files: Memory,
+    /// How its camera's basis is made.
+    pub basis: Option<Basis>,
+    /// What its angle spans.
+    pub angle: Option<Angle>,
+}
+
 /// The picture of a converted text that is to look as in its original program.
-fn render_as_in_the_original(text: &str) -> Vec<[u8; 3]> {
-    let options = Options { rendition: Rendition::Original, ..Options::default() };
+pub fn render_as_in_the_original(text: &str, original: Original) -> Vec<[u8; 3]> {
+    let Original { files, basis, angle } = original;
+    let options = Options { rendition: Rendition::Original, basis, angle, ..Options::default() };
     let conversion = snell::convert::convert(text, "scene.txt", &options, None);
     let scene = conversion.scenes.first().expect("the text can be converted");
-    render(&scene.snell).unwrap_or_else(|report| panic!("{report}\n{}", scene.snell))
+    render_with(&scene.snell, &files).unwrap_or_else(|report| panic!("{report}\n{}", scene.snell))
 }
 
 #[test]
 fn a_converted_scene_looks_as_in_its_original_program_pixel_for_pixel() {
-    course().assert_is(&render_as_in_the_original(COURSE_TEXT));
+    course().assert_is(&render_as_in_the_original(COURSE_TEXT, Original::default()));
 }
 
 #[test]
@@ -196,7 +211,7 @@ fn the_first_scene_of_the_course_looks_as_in_its_original_program() {
         suns: Vec::new(),
         lamps: vec![(DVec3::new(0.0, 5.0, 5.0), DVec3::splat(0.9))],
     };
-    scene.assert_is(&render_as_in_the_original(&text));
+    scene.assert_is(&render_as_in_the_original(&text, Original::default()));
 }
 
 /// One pixel looking down at a slab of whatever `material` is, over a white floor, with one light above.

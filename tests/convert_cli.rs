@@ -67,3 +67,27 @@ fn any_encoding_is_read() {
         assert!(String::from_utf8_lossy(&converted.stdout).contains("radiance: 0.5"), "{name}");
     }
 }
+
+#[test]
+fn a_hyphen_is_standard_input_and_output() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plain = snell(&["convert", &ours("coursework.txt"), "-q"], folder.path());
+    let hyphen = snell(&["convert", &ours("coursework.txt"), "-q", "-o", "-"], folder.path());
+    assert_eq!(plain.stdout, hyphen.stdout);
+    let report =
+        snell(&["convert", &ours("coursework.txt"), "-q", "-o", "x.snell", "--report", "-"], folder.path());
+    let report: serde_json::Value = serde_json::from_slice(&report.stdout).expect("JSON alone");
+    assert_eq!(report["token_count"], report["accounted"]);
+    assert!(folder.path().join("x.snell").exists() && !folder.path().join("-").exists());
+}
+
+#[test]
+fn the_source_is_never_overwritten() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = std::fs::read_to_string(ours("coursework.txt")).expect("a scene");
+    std::fs::write(folder.path().join("a.txt"), &text).expect("a file");
+    for arguments in [["convert", "a.txt", "-o", "./a.txt"], ["convert", "a.txt", "--report", "a.txt"]] {
+        assert_eq!(snell(&arguments, folder.path()).status.code(), Some(2));
+        assert_eq!(std::fs::read_to_string(folder.path().join("a.txt")).expect("still there"), text);
+    }
+}

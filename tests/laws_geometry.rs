@@ -1,195 +1,9 @@
 //! What rays may rely on: no leaks, no order dependence, the tree as if every primitive had been tried.
 
+use crate::support::*;
 use snell::math::{DAffine3, DMat3, DVec2, DVec3, Ray, Vec2, Vec3};
 use snell::render::geometry::{Geometry, Hit, PrimId, Shapes, SurfacePoint};
-use snell::render::shape::triangle::{ShearedRay, TriangleBlock};
-use snell::render::shape::{Frustum, Instance, MaterialId, Mesh, Profile, Solid, SolidKind, SourceId, Torus};
-
-/// Numbers that look random, the same on every run (Vigna 2015, splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut x = self.0;
-        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ (x >> 31)
-    }
-
-    fn unit(&mut self) -> f32 {
-        (self.next() >> 40) as f32 / (1_u64 << 24) as f32
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        (self.next() % count as u64) as usize
-    }
-
-    /// A point of the cube [−1, 1]³.
-    fn point(&mut self) -> Vec3 {
-        Vec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        snell::math::warp::square_to_uniform_sphere(Vec2::new(self.unit(), self.unit()))
-    }
-
-    fn axis(&mut self) -> Vec3 {
-        let axis = Vec3::AXES[self.below(3)];
-        if self.below(2) == 0 { axis } else { -axis }
-    }
-}
-
-fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
-    Mesh {
-        positions,
-        triangles,
-        normals: None,
-        uvs: None,
-        material: MaterialId(0),
-        object_from_world: DAffine3::IDENTITY,
-        source: SourceId(0),
-    }
-}
-
-fn solid(kind: SolidKind, world_from_object: DAffine3) -> Solid {
-    let texture_from_object = DAffine3::IDENTITY;
-    Solid { kind, world_from_object, texture_from_object, material: MaterialId(0), source: SourceId(0) }
-}
-
-fn scene(mesh: Mesh) -> Geometry {
-    Geometry::build(vec![mesh], Vec::new())
-}
-
-/// A closed sphere of `rows × columns` faces, its radius given by longitude and row; normals outwards.
-fn sphere(rows: u32, columns: u32, radius: impl Fn(u32, u32) -> f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
-    use std::f32::consts::{PI, TAU};
-    let mut positions = vec![Vec3::Y * radius(0, 0), Vec3::NEG_Y * radius(rows, 0)];
-    for row in 1..rows {
-        for column in 0..columns {
-            let (theta, phi) = (PI * row as f32 / rows as f32, TAU * column as f32 / columns as f32);
-            let dir = Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin());
-            positions.push(dir * radius(row, column));
-        }
-    }
-    let at = |row: u32, column: u32| match row {
-        0 => 0,
-        row if row == rows => 1,
-        row => 2 + (row - 1) * columns + column % columns,
-    };
-    let mut triangles = Vec::new();
-    for row in 0..rows {
-        for column in 0..columns {
-            let [a, b] = [at(row, column), at(row, column + 1)];
-            let [c, d] = [at(row + 1, column), at(row + 1, column + 1)];
-            if a != b {
-                triangles.push([a, b, c]);
-            }
-            if c != d {
-                triangles.push([b, d, c]);
-            }
-        }
-    }
-    (positions, triangles)
-}
-
-/// The cube [−1, 1]³, each face of `side²` squares; vertices shared.
-fn cube(side: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
-    let mut index = std::collections::BTreeMap::new();
-    let mut positions = Vec::new();
-    let mut triangles = Vec::new();
-    for axis in 0..3 {
-        for face in [0, side] {
-            let mut vertex = |i: u32, j: u32| {
-                let mut key = [0; 3];
-                (key[axis], key[(axis + 1) % 3], key[(axis + 2) % 3]) = (face, i, j);
-                *index.entry(key).or_insert_with(|| {
-                    positions.push(Vec3::from(key.map(|x| x as f32 * 2.0 / side as f32 - 1.0)));
-                    positions.len() as u32 - 1
-                })
-            };
-            for (i, j) in (0..side).flat_map(|i| (0..side).map(move |j| (i, j))) {
-                let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
-                let quad = [[a, b, c], [a, c, d]];
-                triangles.extend(if face == 0 { quad.map(|[a, b, c]| [a, c, b]) } else { quad });
-            }
-        }
-    }
-    (positions, triangles)
-}
-
-/// Closed meshes with the point inside that rays start near: spiky, round, flat-sided, far away, tiny and huge.
-fn closed_meshes() -> Vec<(&'static str, Mesh, Vec3)> {
-    let mut random = Random(1);
-    let radii: Vec<f32> = (0..17 * 16).map(|_| 1.0 + 5.0 * random.unit()).collect();
-    let spiky = sphere(16, 16, |row, column| radii[(row * 16 + column) as usize]);
-    let round = sphere(60, 60, |_, _| 1.0);
-    let cube = cube(32);
-    let placed = |(positions, triangles): &(Vec<Vec3>, Vec<[u32; 3]>), scale: f32, shift: Vec3| {
-        (mesh(positions.iter().map(|p| *p * scale + shift).collect(), triangles.clone()), shift)
-    };
-    let far = Vec3::new(148_376.0, 1234.0, -223_423.0);
-    [
-        ("spiky", placed(&spiky, 1.0, Vec3::ZERO)),
-        ("round", placed(&round, 1.0, Vec3::ZERO)),
-        ("round, far", placed(&round, 8.0, far)),
-        ("round, tiny", placed(&round, 1e-6, Vec3::ZERO)),
-        ("round, huge", placed(&round, 1e6, Vec3::ZERO)),
-        ("round, small and far", placed(&round, 0.2, Vec3::splat(1e4))),
-        ("cube", placed(&cube, 1.0, Vec3::ZERO)),
-        ("cube, far", placed(&cube, 1.0, Vec3::new(1000.0, 0.0, -333.0))),
-    ]
-    .map(|(name, (mesh, center))| (name, mesh, center))
-    .into()
-}
-
-/// A ray from near `center`, a quarter each: anywhere, at a vertex, at an edge, along an axis through a vertex's coordinate.
-fn aimed_ray(mesh: &Mesh, center: Vec3, i: usize, random: &mut Random) -> Ray {
-    // Small enough for the origins to lie within the spiky mesh, whose sides come near its middle.
-    let size = (mesh.positions[0] - center).length() * 0.1;
-    let o = center + random.point() * size;
-    let [a, b, _] = mesh.corners(mesh.triangles[random.below(mesh.triangles.len())]);
-    match i % 4 {
-        0 => Ray::new(o, random.direction()),
-        1 => Ray::new(o, a - o),
-        2 => Ray::new(o, a.lerp(b, random.unit()) - o),
-        _ => {
-            let axis = random.axis();
-            let near = |p: Vec3| (p - center).abs().max_element() < size;
-            let through = Vec3::select(axis.abs().cmpgt(Vec3::splat(0.5)), o, a);
-            Ray::new(if near(through) { through } else { o }, axis)
-        }
-    }
-}
-
-/// The nearest hit by trying every triangle.
-struct BruteForce(Vec<TriangleBlock>);
-
-impl BruteForce {
-    fn new(mesh: &Mesh) -> Self {
-        let corners: Vec<_> =
-            mesh.triangles.iter().map(|triangle| mesh.corners(*triangle)).zip(0..).collect();
-        Self(corners.chunks(4).map(TriangleBlock::new).collect())
-    }
-
-    fn closest_hit(&self, ray: &Ray) -> Option<(u32, u32)> {
-        let sheared = ShearedRay::new(ray);
-        let mut best: Option<(f32, u32)> = None;
-        for block in &self.0 {
-            block.intersect(&sheared, |prim, hit| {
-                let before = best.is_none_or(|(t, other)| hit.t < t || hit.t == t && prim < other);
-                if 0.0 < hit.t && hit.t < ray.t_max && before {
-                    best = Some((hit.t, prim));
-                }
-            });
-        }
-        best.map(|(t, prim)| (t.to_bits(), prim))
-    }
-}
-
-fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
-    hit.map(|hit| (hit.t.to_bits(), hit.prim.0))
-}
+use snell::render::shape::{Frustum, Instance, MaterialId, Mesh, Profile, SolidKind, SourceId, Torus};
 
 #[test]
 fn no_ray_escapes_a_closed_mesh() {
@@ -284,18 +98,6 @@ fn aimed_rays_tell_a_leaky_triangle_test_from_a_tight_one() {
     assert!(escaped > 10, "the rays are aimed too badly to find a leak: {escaped}");
 }
 
-/// Möller and Trumbore's test (1997) as it is mostly written: edges decided in single precision, each triangle alone.
-fn naive_intersect([a, b, c]: [Vec3; 3], ray: &Ray) -> bool {
-    let (e1, e2) = (b - a, c - a);
-    let h = ray.d.cross(e2);
-    let f = 1.0 / e1.dot(h);
-    let s = ray.o - a;
-    let u = f * s.dot(h);
-    let q = s.cross(e1);
-    let v = f * ray.d.dot(q);
-    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && f * e2.dot(q) > 0.0
-}
-
 #[test]
 fn the_tree_finds_what_trying_every_triangle_finds() {
     for (name, mesh, center) in closed_meshes() {
@@ -354,8 +156,7 @@ fn awkward_scene(i: usize, random: &mut Random) -> Mesh {
     };
     let triangles = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
     let area = |triangle: &[u32; 3]| {
-        snell::render::shape::triangle::cross_of_edges(triangle.map(|i| positions[i as usize].as_dvec3()))
-            .length()
+        snell::render::shape::triangle::cross_of_edges(triangle.map(|i| positions[i as usize])).length()
     };
     let triangles = triangles.filter(|triangle| area(triangle) > 0.0).collect();
     mesh(positions, triangles)
@@ -866,8 +667,8 @@ fn instances_and_copies_agree_on_areas_normals_and_order() {
         let geometry = Geometry::new(shapes);
         assert_eq!(geometry.prim_count(), 3 * count + 1);
         let materials: Vec<_> =
-            geometry.mesh_prims().map(|(material, prims)| (material.0, prims.start)).collect();
-        assert_eq!(materials, [(0, 0), (1, count), (2, 2 * count)]);
+            geometry.instance_prims().map(|(instance, prims)| (instance.material.0, prims.start)).collect();
+        assert_eq!(materials, [(1, count), (2, 2 * count)]);
         let far = world_from_mesh.translation.abs().max_element()
             / world_from_mesh.matrix3.determinant().abs().cbrt();
         let tolerance = 1e-4 + 1e-6 * far;

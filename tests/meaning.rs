@@ -109,8 +109,9 @@ fn one_mistake_gives_one_report() {
 fn every_code_of_meaning_has_its_scene() {
     /// These need a command line, or a file that may not be read.
     const ELSEWHERE: [&str; 4] = ["unknown_parameter", "no_camera", "unknown_camera", "unreadable"];
-    for phase in PHASES {
-        let source = std::fs::read_to_string(format!("src/{phase}/error.rs")).expect("the source is there");
+    let files = PHASES.map(|phase| (phase, format!("src/{phase}/error.rs")));
+    for (phase, file) in files.into_iter().chain([("check", "src/check/space/error.rs".to_owned())]) {
+        let source = std::fs::read_to_string(file).expect("the source is there");
         let prefix = format!("code(snell::{phase}::");
         let codes = source.split(&prefix).skip(1).filter_map(|rest| rest.split(')').next());
         let missing: BTreeSet<&str> = codes

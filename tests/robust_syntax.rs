@@ -88,12 +88,13 @@ impl SplitMix {
     }
 
     /// A number below `limit`, which is not 0.
-    fn below(&mut self, limit: usize) -> usize {
+    pub(crate) fn below(&mut self, limit: usize) -> usize {
         (self.next() % limit as u64) as usize
     }
 
-    fn pick<'a, T: ?Sized>(&mut self, choices: &[&'a T]) -> &'a T {
-        choices[self.below(choices.len())]
+    /// One of several.
+    pub(crate) fn one<'a, T>(&mut self, choices: &'a [T]) -> &'a T {
+        &choices[self.below(choices.len())]
     }
 }
 
@@ -106,7 +107,7 @@ pub(crate) fn mangle(texts: &[String], random: &mut SplitMix) -> String {
     for _ in 0..1 + random.below(6) {
         let at = random.below(text.len() + 1);
         let end = text.len().min(at + random.below(12));
-        let piece: Vec<char> = random.pick(&PIECES).chars().collect();
+        let piece: Vec<char> = random.one(&PIECES).chars().collect();
         match random.below(3) {
             0 => drop(text.drain(at..end)),
             1 => drop(text.splice(at..at, piece)),
@@ -178,6 +179,9 @@ fn extreme_texts_end_in_a_report() {
         "'",
         "@",
         "if a {} else ",
+        "while a ",
+        "-- a ",
+        "<1, ",
     ];
     for piece in repeated {
         check(&format!("snell 1\nlet a = {}", piece.repeat(many / 10)), true);

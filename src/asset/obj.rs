@@ -272,7 +272,35 @@ fn part(mesh: &tobj::Mesh, notes: &mut Notes) -> Result<Part, ObjError> {
     let before = triangles.len();
     triangles.retain(|t| !is_degenerate(t.map(|i| positions[i as usize])));
     notes.degenerate += before - triangles.len();
-    Ok(Part { positions, triangles, normals, uvs, material: mesh.material_id })
+    let part = Part { positions, triangles, normals, uvs, material: mesh.material_id };
+    Ok(if part.triangles.len() < before { part.without_unused_vertices() } else { part })
+}
+
+impl Part {
+    /// The same without vertices that no triangle uses, so that these do not stretch its box.
+    fn without_unused_vertices(mut self) -> Self {
+        let mut used = vec![false; self.positions.len()];
+        self.triangles.iter().flatten().for_each(|&vertex| used[vertex as usize] = true);
+        let place: Vec<u32> = used
+            .iter()
+            .scan(0, |count, &used| {
+                *count += u32::from(used);
+                Some(u32::saturating_sub(*count, 1))
+            })
+            .collect();
+        self.triangles.iter_mut().flatten().for_each(|vertex| *vertex = place[*vertex as usize]);
+        let mut keep = used.iter().copied();
+        self.positions.retain(|_| keep.next() == Some(true));
+        if let Some(normals) = &mut self.normals {
+            let mut keep = used.iter().copied();
+            normals.retain(|_| keep.next() == Some(true));
+        }
+        if let Some(uvs) = &mut self.uvs {
+            let mut keep = used.iter().copied();
+            uvs.retain(|_| keep.next() == Some(true));
+        }
+        self
+    }
 }
 
 /// The values, if there is one for every vertex and all are finite.

@@ -1,6 +1,6 @@
 //! Picture files: their size without their pixels, and their pixels.
 
-use image::{DynamicImage, ImageError, ImageReader, Limits};
+use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
 /// The largest width and height that is read.
@@ -32,7 +32,7 @@ pub enum Pixels {
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// Not a format that is read.
-    #[error("this is not a PNG, JPEG, PPM, HDR or EXR file")]
+    #[error("this is not a PNG, JPEG, BMP, TGA, PPM, HDR or EXR file")]
     UnknownFormat,
     /// Beyond the limits.
     #[error("it is too large: at most {MAX_SIDE} pixels a side and 2 GiB are read")]
@@ -93,12 +93,33 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
     Ok(Picture { width, height, pixels })
 }
 
+/// How much there is of each pixel, in [0, 1], as a linear grey; `None` for a picture that does not say.
+///
+/// # Errors
+/// As [`decode`].
+pub fn alpha(bytes: &[u8]) -> Result<Option<Picture>, PictureError> {
+    size(bytes)?;
+    let image = reader(bytes)?.decode()?;
+    if !image.color().has_alpha() {
+        return Ok(None);
+    }
+    let grey: Vec<[f32; 3]> = image.to_rgba32f().pixels().map(|p| [p.0[3].clamp(0.0, 1.0); 3]).collect();
+    let bad = grey.iter().filter(|p| !p[0].is_finite()).count();
+    if bad > 0 {
+        return Err(PictureError::NotFinite(bad));
+    }
+    Ok(Some(Picture { width: image.width(), height: image.height(), pixels: Pixels::Linear(grey) }))
+}
+
 fn reader(bytes: &[u8]) -> Result<ImageReader<Cursor<&[u8]>>, PictureError> {
     let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(|error| PictureError::Broken(error.to_string()))?;
     if reader.format().is_none() {
-        return Err(PictureError::UnknownFormat);
+        if !looks_like_tga(bytes) {
+            return Err(PictureError::UnknownFormat);
+        }
+        reader.set_format(ImageFormat::Tga);
     }
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
@@ -106,6 +127,26 @@ fn reader(bytes: &[u8]) -> Result<ImageReader<Cursor<&[u8]>>, PictureError> {
     limits.max_alloc = Some(MAX_BYTES);
     reader.limits(limits);
     Ok(reader)
+}
+
+/// Whether bytes begin with a header of a TGA picture, which has no mark of its own (Truevision 1991, section C).
+///
+/// What the kinds of pictures and the depths of pixels can be, and what must be 0 in a picture without a palette, leave
+/// little that is text or another format.
+fn looks_like_tga(bytes: &[u8]) -> bool {
+    let Some(
+        &[_, has_palette, kind, p0, p1, p2, p3, depth_of_palette, _, _, _, _, w0, w1, h0, h1, depth, flags],
+    ) = bytes.first_chunk()
+    else {
+        return false;
+    };
+    let palette_fits = match kind {
+        1 | 9 => has_palette == 1 && [15, 16, 24, 32].contains(&depth_of_palette),
+        2 | 3 | 10 | 11 => has_palette == 0 && [p0, p1, p2, p3, depth_of_palette] == [0; 5],
+        _ => false,
+    };
+    let has_pixels = (w0, w1) != (0, 0) && (h0, h1) != (0, 0);
+    palette_fits && has_pixels && [8, 15, 16, 24, 32].contains(&depth) && flags & 0b1100_0000 == 0
 }
 
 #[cfg(test)]
@@ -118,6 +159,40 @@ mod tests {
         assert_eq!(size(bytes).unwrap(), (2, 1));
         let picture = decode(bytes).unwrap();
         assert_eq!(picture.pixels, Pixels::Display(vec![[0, 128, 255], [1, 2, 3]]));
+    }
+
+    /// Two pixels in a row, red and green, as the two formats of old Windows programs have them: blue first.
+    const BMP: &[u8] = b"BM\x3e\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x02\0\0\0\x01\0\0\0\x01\0\x18\0\0\0\0\0\
+        \x08\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\xff\0\xff\0\0\0";
+    const TGA: &[u8] = b"\0\0\x02\0\0\0\0\0\0\0\0\0\x02\0\x01\0\x18\x20\0\0\xff\0\xff\0";
+
+    #[test]
+    fn bmp_and_tga_are_read() {
+        for bytes in [BMP, TGA] {
+            assert_eq!(size(bytes).unwrap(), (2, 1));
+            let picture = decode(bytes).unwrap();
+            assert_eq!(picture.pixels, Pixels::Display(vec![[255, 0, 0], [0, 255, 0]]));
+        }
+    }
+
+    /// Every byte of both, and every two of a header, set to what makes sizes and depths extreme: an answer or an error,
+    /// and never more memory than there is.
+    #[test]
+    fn broken_headers_of_bmp_and_tga_are_refused_or_read() {
+        for bytes in [BMP, TGA] {
+            for (first, second) in (0..bytes.len()).flat_map(|i| [(i, i), (i, i + 1)]) {
+                for value in [0, 1, 9, 0x7f, 0x80, 0xff] {
+                    let mut broken = bytes.to_vec();
+                    for at in [first, second.min(bytes.len() - 1)] {
+                        broken[at] = value;
+                    }
+                    let _ = decode(&broken);
+                }
+            }
+            for length in 0..bytes.len() {
+                assert!(decode(&bytes[..length]).is_err() || length + 4 > bytes.len());
+            }
+        }
     }
 
     #[test]

@@ -124,6 +124,7 @@ impl Check<'_> {
             self.report(CheckError::FilmSize { width, height, used: film.size.span });
         }
         self.positive("the width of the sensor", film.sensor, Type::Length);
+        self.positive("the width of a pixel by its height", film.pixel_aspect, Type::Number);
         let (Filter::Box(radius) | Filter::Tent(radius) | Filter::Gaussian(radius)) = film.filter.value;
         if !(0.0 < radius && radius <= WIDEST_FILTER) {
             let (found, range) = (Type::Pixels.write(radius), "greater than 0px and at most 16px".to_owned());

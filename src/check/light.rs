@@ -118,8 +118,10 @@ impl Check<'_> {
             || scene.environment.as_ref().is_some_and(Environment::is_lit)
             || self.placed_materials().any(|(kind, _)| matches!(kind, MaterialKind::Emissive { .. }))
             || scene.objects.iter().any(is_lamp);
-        if let (false, Some(camera)) = (lit, scene.cameras.first()) {
-            self.report(CheckError::NoLight { camera: camera.span });
+        let may_be_lit = lit || !self.whole && scene.intent.light;
+        let camera = scene.cameras.first().map(|camera| camera.span).or(scene.intent.camera);
+        if let (false, Some(camera)) = (may_be_lit, camera) {
+            self.report(CheckError::NoLight { camera });
         }
     }
 }

@@ -59,6 +59,9 @@ pub fn check(scene: Scene, problems: &mut Problems) -> Option<Checked> {
     let is_sound = !check.problems.has_errors();
     check.materials();
     check.render();
+    if !space::may_bring_light(&scene) {
+        check.any_light(&NoMeshes);
+    }
     if is_sound && !space::places_meshes(&scene) {
         check.survey(&NoMeshes);
     }
@@ -84,7 +87,7 @@ impl<'a> Check<'a> {
 }
 
 impl Check<'_> {
-    fn report(&mut self, error: CheckError) {
+    fn report(&mut self, error: impl Diagnostic + Send + Sync + 'static) {
         let code = error.code().map(|code| code.to_string()).unwrap_or_default();
         let place = error.labels().and_then(|mut labels| labels.next()).map_or(0, |label| label.offset());
         if self.reported.insert((code, place)) {

@@ -20,7 +20,7 @@ pub struct ConvertArgs {
     /// The scene to convert; `-` is standard input
     #[arg(value_name = "IN.txt")]
     input: PathBuf,
-    /// Write the scene here instead of to standard output; further scenes of the file get a number
+    /// Write the scene here instead of to standard output, `-`; further scenes of the file get a number
     #[arg(short, long, value_name = "OUT.snell")]
     output: Option<PathBuf>,
     /// Of a file that holds several scenes, only this one, counted from 1
@@ -59,7 +59,7 @@ pub struct ConvertArgs {
     /// Look for meshes and pictures here too; may be repeated
     #[arg(long = "asset-dir", value_name = "DIR")]
     asset_dirs: Vec<PathBuf>,
-    /// Write what became of each word as JSON
+    /// Write what became of each word as JSON; `-` is standard output
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
     /// Say what became of each word
@@ -141,6 +141,9 @@ enum PlaneSignArg {
 
 /// Converts a scene.
 pub fn run(args: &ConvertArgs) -> Exit {
+    if let Some(conflict) = conflict(args) {
+        return fail(conflict);
+    }
     let name = args.input.file_name().map_or("scene".into(), |name| name.to_string_lossy().into_owned());
     let text = match session::read_bytes(&args.input) {
         Ok(bytes) => decoded(&bytes),
@@ -151,7 +154,7 @@ pub fn run(args: &ConvertArgs) -> Exit {
         return fail("the scene is too large");
     }
     let mut finder = DiskFinder::new(&args.input, args.asset_dirs.clone());
-    if let Some(output) = &args.output {
+    if let Some(output) = file(&args.output) {
         finder = finder.written_to(output);
     }
     let mut conversion = crate::convert::convert(&text, &name, &options(args), Some(&finder));
@@ -179,7 +182,8 @@ pub fn run(args: &ConvertArgs) -> Exit {
         (Err(reason), _) => fail(reason),
         (Ok(()), None) => Exit::SceneWrong,
         (Ok(()), Some(first)) => {
-            if args.output.is_none() {
+            let is_report_printed = args.report.as_deref().is_some_and(is_standard);
+            if file(&args.output).is_none() && !is_report_printed {
                 print(&first.snell);
                 if conversion.scenes.len() > 1 {
                     note(
@@ -190,6 +194,33 @@ pub fn run(args: &ConvertArgs) -> Exit {
             Exit::Done
         }
     }
+}
+
+/// Whether a path stands for standard input or output.
+fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// The file to write to, unless that is standard output.
+fn file(path: &Option<PathBuf>) -> Option<&Path> {
+    path.as_deref().filter(|path| !is_standard(path))
+}
+
+/// Why the files named cannot be written beside each other.
+fn conflict(args: &ConvertArgs) -> Option<String> {
+    let is_input = |path: &Path| {
+        let same = |path: &Path| path.canonicalize().ok();
+        same(path).is_some_and(|path| Some(path) == same(&args.input))
+    };
+    let (output, report) = (file(&args.output), file(&args.report));
+    if output.is_some_and(is_input) || report.is_some_and(is_input) {
+        return Some(format!(
+            "`{}` would be overwritten: name another file to write to",
+            args.input.display()
+        ));
+    }
+    let is_one = output.is_some() && output == report;
+    is_one.then(|| "the scene and the report cannot go to one file".into())
 }
 
 /// The text of a file in whatever encoding: UTF-16 with its mark, else UTF-8; other bytes become signs of their own, for
@@ -251,20 +282,23 @@ fn options(args: &ConvertArgs) -> Options {
 /// Writes the files that were asked for, and says what was done.
 fn write(args: &ConvertArgs, text: &str, conversion: &Conversion) -> Result<(), String> {
     for (index, scene) in conversion.scenes.iter().enumerate() {
-        if let Some(path) = &args.output {
+        if let Some(path) = file(&args.output) {
             output::replace(&numbered(path, index), scene.snell.as_bytes())
                 .map_err(|error| error.to_string())?;
         }
     }
     if let Some(path) = &args.report {
         let json = format!("{:#}\n", as_json(args, text, conversion));
-        output::replace(path, json.as_bytes()).map_err(|error| error.to_string())?;
+        match is_standard(path) {
+            true => print(&json),
+            false => output::replace(path, json.as_bytes()).map_err(|error| error.to_string())?,
+        }
     }
     if args.verbose {
         note(report::render(text, &conversion.report));
     } else if !args.messages.quiet {
         for (index, scene) in conversion.scenes.iter().enumerate() {
-            let path = args.output.as_deref().map(|path| numbered(path, index));
+            let path = file(&args.output).map(|path| numbered(path, index));
             let to = path.map_or("standard output".into(), |path| path.display().to_string());
             let detection = &scene.detection;
             note(format_args!(
@@ -311,7 +345,7 @@ fn as_json(args: &ConvertArgs, text: &str, conversion: &Conversion) -> serde_jso
                             "count": count, "fate": outcome, "detail": detail }));
     }
     let scenes = conversion.scenes.iter().enumerate().map(|(index, scene)| {
-        let output = args.output.as_deref().map(|path| numbered(path, index).display().to_string());
+        let output = file(&args.output).map(|path| numbered(path, index).display().to_string());
         json!({ "output": output, "dialect": scene.detection.dialect.id(), "reason": scene.detection.reason })
     });
     let problems = conversion.problems.iter().map(|problem| {

@@ -38,6 +38,16 @@ impl Field<'_> {
         }
     }
 
+    /// Whether it is one number, or a pair of them: a share rather than a colour.
+    pub fn is_share(&self) -> bool {
+        (1..3).contains(&self.numbers.len()) && self.word.is_none()
+    }
+
+    /// Whether nothing follows the key but, perhaps, a word for yes.
+    pub fn is_flag(&self) -> bool {
+        self.numbers.is_empty()
+    }
+
     /// Whether it holds three numbers or more.
     pub fn is_vector(&self) -> bool {
         self.numbers.len() >= 3
@@ -84,6 +94,11 @@ impl<'t> Fields<'t> {
         self.list.iter().find(|field| field.role == role)
     }
 
+    /// The first field of a role that `fits`, without taking it.
+    pub fn peek_where(&self, role: &str, fits: impl Fn(&Field<'t>) -> bool) -> Option<&Field<'t>> {
+        self.list.iter().find(|field| field.role == role && fits(field))
+    }
+
     /// Takes away a key that its reader has told of.
     pub fn forget(&mut self, key: &str) {
         if let Some(at) = self.list.iter().position(|field| field.key == key) {
@@ -115,9 +130,19 @@ impl Log {
     /// Takes the field of a role. If it was written several times the last one counts, as in the original; one whose
     /// role is only guessed does not count beside one that is known.
     pub fn take<'t>(&mut self, fields: &mut Fields<'t>, role: &str) -> Option<Field<'t>> {
-        let is_sure = |field: &Field<'_>| field.role == role && !field.guessed;
-        let any_sure = fields.list.iter().any(is_sure);
-        let counts = |field: &Field<'_>| field.role == role && (!field.guessed || !any_sure);
+        self.take_where(fields, role, |_| true)
+    }
+
+    /// Takes the field of a role that `fits`, where fields of one role can be of several kinds.
+    pub fn take_where<'t>(
+        &mut self,
+        fields: &mut Fields<'t>,
+        role: &str,
+        fits: impl Fn(&Field<'t>) -> bool,
+    ) -> Option<Field<'t>> {
+        let is_meant = |field: &Field<'t>| field.role == role && fits(field);
+        let any_sure = fields.list.iter().any(|field| is_meant(field) && !field.guessed);
+        let counts = |field: &Field<'t>| is_meant(field) && (!field.guessed || !any_sure);
         let last = fields.list.iter().rposition(counts)?;
         let field = fields.list.remove(last);
         let (earlier, rest) =
@@ -135,6 +160,14 @@ impl Log {
         }
         self.mapped(&field.span, READ); // until the reader says what it becomes
         Some(field)
+    }
+
+    /// Takes all fields of a role that may stand several times, in the order of the file.
+    pub fn take_all<'t>(&mut self, fields: &mut Fields<'t>, role: &str) -> Vec<Field<'t>> {
+        let places: Vec<usize> =
+            fields.list.iter().filter(|field| field.role == role).map(|field| field.span.start).collect();
+        let here = |place| move |field: &Field<'_>| field.span.start == place;
+        places.into_iter().filter_map(|place| self.take_where(fields, role, here(place))).collect()
     }
 
     /// Takes the first role that is there.

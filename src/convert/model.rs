@@ -38,6 +38,8 @@ pub struct Camera {
     pub angle: f64,
     /// Whether `angle` is the horizontal field of view rather than the vertical one.
     pub is_across: bool,
+    /// The width of a pixel by its height.
+    pub pixel_aspect: f64,
     /// Width and height in pixels; some dialects leave them to the command line.
     pub size: Option<(u32, u32)>,
     pub lens: Option<Lens>,
@@ -276,6 +278,17 @@ pub enum Shape {
     Cuboid {
         min: DVec3,
         max: DVec3,
+    },
+    /// A tube without lids.
+    Cylinder {
+        base: DVec3,
+        top: DVec3,
+        radius: f64,
+    },
+    /// A ring around the y axis.
+    Torus {
+        radius: f64,
+        tube: f64,
     },
     Mesh {
         file: Asset,

@@ -105,12 +105,21 @@ pub fn tokens(text: &str) -> impl Iterator<Item = Span> + '_ {
             true => start + first.len_utf8(),
             false => {
                 let length = text[start..].find(|c| is_space(c) || is_brace(c));
-                length.map_or(text.len(), |length| start + length)
+                let run = &text[start..length.map_or(text.len(), |length| start + length)];
+                start + number_before_comment(run).unwrap_or(run.len())
             }
         };
         rest = end;
         Some(start..end)
     })
+}
+
+/// How long a number is that a comment touches, as in `20//twenty`.
+fn number_before_comment(run: &str) -> Option<usize> {
+    let at = run.find("//")?;
+    let is_number =
+        run[..at].ends_with(|c: char| c.is_ascii_digit() || c == '.') && run[..at].parse::<f64>().is_ok();
+    is_number.then_some(at)
 }
 
 /// The words of a stretch on one line, at most 36 characters.

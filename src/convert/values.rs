@@ -243,6 +243,7 @@ fn starts_like_number(word: &str) -> bool {
 fn values_of(field: &Field<'_>) -> Values {
     match (field.numbers.len(), &field.word) {
         (_, Some(_)) => Values::Word,
+        (0, None) => Values::Nothing,
         (1, None) => Values::Number,
         (3, None) => Values::Vector,
         _ => Values::Other,

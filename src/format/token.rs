@@ -44,7 +44,8 @@ pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
         let trimmed = rest.trim_start();
         let gap = &rest[..rest.len() - trimmed.len()];
         let (line_ends, is_apart) = (gap.matches('\n').count(), !gap.is_empty());
-        let before = tokens.last().map(|token| token.text);
+        let is_comment = |token: &&Token<'_>| matches!(token.kind, Kind::LineComment | Kind::BlockComment);
+        let before = tokens.iter().rev().find(|token| !is_comment(token)).map(|token| token.text);
         let Some((kind, len)) = token(trimmed, before) else { return tokens };
         let text = trimmed[..len].trim_end();
         tokens.push(Token { kind, text, line_ends, is_apart });
@@ -52,14 +53,14 @@ pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
     }
 }
 
-/// The kind and length of the token that a text begins with; `before` is the token before it.
+/// The kind and length of the token that a text begins with; `before` is the token before it, comments left out.
 fn token(text: &str, before: Option<&str>) -> Option<(Kind, usize)> {
     let first = text.chars().next()?;
     let signs = [("..=", 3), ("->", 2), ("..", 2), ("==", 2), ("!=", 2), ("<=", 2), (">=", 2)];
     Some(match first {
         _ if text.starts_with("//") => (Kind::LineComment, text.find('\n').unwrap_or(text.len())),
         _ if text.starts_with("/*") => (Kind::BlockComment, block_comment(text)),
-        '[' if before == Some("data") => (Kind::Raw, text.find(']').map_or(text.len(), |end| end + 1)),
+        '[' if before == Some("data") => (Kind::Raw, raw(text)),
         '(' | '[' | '{' => (Kind::Open, 1),
         ')' | ']' | '}' => (Kind::Close, 1),
         ',' | ':' => (Kind::Mark, 1),
@@ -131,6 +132,21 @@ fn number(text: &str) -> usize {
     }
 }
 
+/// The numbers of a `data`, up to the bracket that closes them; one in a comment closes nothing.
+fn raw(text: &str) -> usize {
+    let mut at = 0;
+    while let Some(found) = text[at..].find([']', '/']) {
+        at += found;
+        at += match &text[at..] {
+            rest if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
+            rest if rest.starts_with("/*") => block_comment(rest),
+            rest if rest.starts_with(']') => return at + 1,
+            _ => 1,
+        };
+    }
+    text.len()
+}
+
 /// A comment with those that it holds.
 fn block_comment(text: &str) -> usize {
     let (mut depth, mut at) = (0_usize, 0);
@@ -143,4 +159,16 @@ fn block_comment(text: &str) -> usize {
         }
     }
     text.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bracket_in_a_comment_ends_no_data() {
+        let text = "data /* [ */ [1 -2 // ]\n 3 /* ] */] + 1";
+        let kinds: Vec<Kind> = tokens(text).iter().map(|token| token.kind).collect();
+        assert_eq!(kinds, [Kind::Word, Kind::BlockComment, Kind::Raw, Kind::Operator, Kind::Literal]);
+    }
 }

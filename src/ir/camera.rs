@@ -74,12 +74,22 @@ pub struct Film {
     pub size: Spanned<(u32, u32)>,
     /// The pixel filter.
     pub filter: Spanned<Filter>,
+    /// The width of a pixel by its height.
+    pub pixel_aspect: Spanned<f64>,
     /// The width in metres; the height follows from the pixels.
     pub sensor: Spanned<f64>,
     /// Brightness of the picture.
     pub exposure: Spanned<Exposure>,
     /// From linear radiance to display values.
     pub tone: Spanned<Tone>,
+}
+
+impl Film {
+    /// The width of the picture by its height.
+    pub fn aspect(&self) -> f64 {
+        let (width, height) = self.size.value;
+        self.pixel_aspect.value * f64::from(width) / f64::from(height)
+    }
 }
 
 /// Pixel filters, with their radius in pixels.

@@ -2,7 +2,7 @@
 
 use super::camera::Fov;
 use super::light::EnvironmentRadiance;
-use super::material::CheckerCells;
+use super::material::{Channel, CheckerCells, ColorSpace, Pattern};
 use super::{
     Brightness, Camera, Classic, Curve, Exposure, Focus, Handle, ImageUse, Input, Lens, Light, LightKind,
     Material, MaterialKind, MetalColor, Object, Projection, RevolveMethod, Scene, ShapeKind, TextureKind,
@@ -92,7 +92,31 @@ fn texture_kind(kind: &TextureKind) -> String {
                 CheckerCells::Uv(cells) => format!("cells {}", pair(cells)),
                 CheckerCells::Solid(size) => format!("size {}", number(size)),
             };
-            format!("checker a {} b {} {cells}", rgb(checker.a.value), rgb(checker.b.value))
+            format!("checker a {} b {} {cells}", input(checker.a), input(checker.b))
+        }
+        TextureKind::Pattern { a, b, pattern } => {
+            format!("{} a {} b {}", pattern_text(pattern), input(*a), input(*b))
+        }
+        TextureKind::Blend { a, b, amount } => {
+            format!("blend a {} b {} amount {}", input(*a), input(*b), input(*amount))
+        }
+        TextureKind::Join { op, a, b } => format!("{op:?} {} {}", input(*a), input(*b)).to_lowercase(),
+    }
+}
+
+fn pattern_text(pattern: &Pattern) -> String {
+    match pattern {
+        Pattern::Gradient(None) => "gradient".to_owned(),
+        Pattern::Gradient(Some([start, end])) => format!("gradient {} {}", point(*start), point(*end)),
+        Pattern::Noise { size, octaves } => format!("noise size {} octaves {octaves}", number(*size)),
+        Pattern::Marble { size, turbulence } => {
+            format!("marble size {} turbulence {}", number(*size), number(*turbulence))
+        }
+        Pattern::Wood { size, turbulence } => {
+            format!("wood size {} turbulence {}", number(*size), number(*turbulence))
+        }
+        Pattern::Brick { cells, mortar, aspect } => {
+            format!("brick {} mortar {} aspect {}", pair(*cells), number(*mortar), number(*aspect))
         }
     }
 }
@@ -108,8 +132,23 @@ fn image_text(image: &ImageUse) -> String {
     if (image.uv_scale, image.uv_offset) != (DVec2::ONE, DVec2::ZERO) {
         let _ = write!(out, " uv {} + {}", pair(image.uv_scale), pair(image.uv_offset));
     }
-    if let Projection::Planar { origin, u, v } = image.projection {
-        let _ = write!(out, " planar {} u {} v {}", point(origin), point(u), point(v));
+    if image.uv_rotation != 0.0 {
+        let _ = write!(out, " turned {}", number(image.uv_rotation));
+    }
+    if (image.space, image.channel) != (ColorSpace::Auto, Channel::Rgb) {
+        let _ = write!(out, " {:?} {:?}", image.space, image.channel);
+    }
+    match image.projection {
+        Projection::Uv => {}
+        Projection::Planar { origin, u, v } => {
+            let _ = write!(out, " planar {} u {} v {}", point(origin), point(u), point(v));
+        }
+        Projection::Spherical { center } => {
+            let _ = write!(out, " spherical {}", point(center));
+        }
+        Projection::Cubic { center, size } => {
+            let _ = write!(out, " cubic {} size {}", point(center), point(size));
+        }
     }
     out
 }
@@ -123,13 +162,62 @@ fn material_kind(material: &Material) -> String {
         MaterialKind::Mirror { color } => format!("mirror {}", input(*color)),
         MaterialKind::Metal { color, roughness } => {
             let color = match color {
-                MetalColor::Named(name, color) => format!("{} {}", name.value, rgb(*color)),
-                MetalColor::Color(color) => input(*color),
+                MetalColor::Named { name, straight, edge } => {
+                    format!("{} {} edge {}", name.value, rgb(*straight), rgb(*edge))
+                }
+                MetalColor::Color { straight, edge } => format!("{} edge {}", input(*straight), input(*edge)),
             };
             format!("metal {color} roughness {}", input(*roughness))
         }
-        MaterialKind::Glass { ior, tint, absorption } => {
-            format!("glass ior {} tint {} absorption {}", ior.value, rgb(tint.value), rgb(*absorption))
+        MaterialKind::Glass { ior, roughness, tint, absorption, abbe, thin, priority } => {
+            let mut text =
+                format!("glass ior {} tint {} absorption {}", ior.value, rgb(tint.value), rgb(*absorption));
+            if !matches!(roughness, Input::Constant(color) if color.is_black()) {
+                let _ = write!(text, " roughness {}", input(*roughness));
+            }
+            if let Some(abbe) = abbe {
+                let _ = write!(text, " abbe {}", number(abbe.value));
+            }
+            if thin.is_some() {
+                text.push_str(" thin");
+            }
+            if *priority != 0 {
+                let _ = write!(text, " priority {priority}");
+            }
+            text
+        }
+        MaterialKind::Plastic { color, ior, roughness } => {
+            format!("plastic {} ior {} roughness {}", input(*color), ior.value, input(*roughness))
+        }
+        MaterialKind::Layer { base, ior, roughness, cover } => {
+            format!(
+                "layer {base:?} ior {} roughness {} cover {}",
+                ior.value,
+                input(*roughness),
+                input(*cover)
+            )
+        }
+        MaterialKind::Principled(of) => format!(
+            "principled {} metallic {} roughness {} transmission {} ior {} clearcoat {} {} emission {}",
+            input(of.color),
+            input(of.metallic),
+            input(of.roughness),
+            input(of.transmission),
+            of.ior.value,
+            input(of.clearcoat),
+            input(of.clearcoat_roughness),
+            rgb(of.emission.value)
+        ),
+        MaterialKind::Mask { base, opacity, cutoff } => {
+            let cutoff = cutoff.map_or(String::new(), |cutoff| format!(" cutoff {}", number(cutoff)));
+            format!("mask {base:?} opacity {}{cutoff}", input(*opacity))
+        }
+        MaterialKind::TwoSided { front, back } => format!("two_sided {front:?} {back:?}"),
+        MaterialKind::NormalMap { base, map, strength } => {
+            format!("normal_map {base:?} texture {:?} strength {}", map.value, number(*strength))
+        }
+        MaterialKind::Bump { base, height, depth } => {
+            format!("bump {base:?} texture {:?} depth {}", height.value, number(*depth))
         }
         MaterialKind::Emissive { brightness: b, color } => {
             format!("emissive {} color {}", brightness(b.value), rgb(*color))
@@ -256,9 +344,15 @@ fn dump_camera(out: &mut String, scene: &Scene, camera: &Camera) {
     };
     let ((width, height), filter, tone) = (film.size.value, film.filter.value, film.tone.value);
     let sensor = number(film.sensor.value);
+    let stretch = match film.pixel_aspect.value {
+        1.0 => String::new(),
+        aspect => format!(" pixel_aspect {}", number(aspect)),
+    };
     line(
         out,
-        &format!("    film {width} x {height} {filter:?} sensor {sensor} exposure {exposure} {tone:?}"),
+        &format!(
+            "    film {width} x {height}{stretch} {filter:?} sensor {sensor} exposure {exposure} {tone:?}"
+        ),
     );
 }
 

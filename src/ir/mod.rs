@@ -43,6 +43,20 @@ pub struct Scene {
     pub params: Vec<Param>,
     /// The names that objects carry, by the ids in [`Object::names`].
     pub names: Vec<Named>,
+    /// What the text shows beyond that, when it has mistakes.
+    pub intent: Intent,
+}
+
+/// What a scene with mistakes was to be, as far as its text shows it. Nothing is rendered of it: it tells which doubts
+/// are certain all the same, and where to look for more mistakes.
+#[derive(Clone, Debug, Default)]
+pub struct Intent {
+    /// Where the first camera is written, be it well or badly.
+    pub camera: Option<Span>,
+    /// Whether the text speaks of light, well or badly: then there may be some, though none could be made of it.
+    pub light: bool,
+    /// Materials that misspelt names probably mean.
+    pub materials: Vec<Handle<Material>>,
 }
 
 impl Scene {

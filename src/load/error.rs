@@ -82,7 +82,7 @@ pub enum LoadError {
     #[error("`{name}` cannot be used as a picture: {reason}")]
     #[diagnostic(
         code(snell::load::bad_picture),
-        help("save it again as PNG, JPEG, PPM, HDR or EXR, with at most 32,768 pixels a side")
+        help("save it again as PNG, JPEG, BMP, TGA, PPM, HDR or EXR, with at most 32,768 pixels a side")
     )]
     BadPicture {
         /// As written.

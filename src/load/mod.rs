@@ -111,6 +111,8 @@ pub fn load<'a>(
             None => loader.own_materials(object.shape),
         }
     }
+    // A misspelt name shall not hide that what it means lacks its file.
+    scene.intent.materials.iter().for_each(|&material| loader.material(material));
     if let Some(environment) = &scene.environment
         && let EnvironmentRadiance::Image(texture) = environment.radiance
     {
@@ -255,10 +257,12 @@ impl Loader<'_, '_> {
 
     fn texture(&mut self, handle: Handle<Texture>) {
         let scene = self.loaded.scene;
-        let TextureKind::Image(image) = &scene.textures[handle].kind else { return };
         if !self.seen_textures.insert(handle.index()) {
             return;
         }
+        let kind = &scene.textures[handle].kind;
+        kind.inputs().iter().for_each(|input| self.input(input));
+        let TextureKind::Image(image) = kind else { return };
         let what = Wanted {
             name: &image.file.value,
             span: image.file.span,

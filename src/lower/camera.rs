@@ -28,7 +28,7 @@ pub fn camera(
 ) -> Result<Seen, LowerError> {
     let forward = camera.direction.value.normalize();
     let (width, height) = camera.film.size.value;
-    let aspect = f64::from(width) / f64::from(height);
+    let aspect = camera.film.aspect();
     let tan_half_fov_x = tan_half_fov_x(camera, aspect);
     let lens = match &camera.lens {
         Lens::Pinhole { .. } => None,

@@ -32,11 +32,17 @@ pub enum Effect {
     Environment,
     /// Emissive objects.
     MeshLights,
+    /// Normals bent by pictures.
+    NormalMaps,
+    /// Surfaces with holes.
+    Alpha,
+    /// Glass that bends each wavelength in its own way.
+    Dispersion,
 }
 
 impl Effect {
     /// All of them, in the order in which they are listed.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 14] = [
         Self::LensBlur,
         Self::SoftShadows,
         Self::Textures,
@@ -48,6 +54,9 @@ impl Effect {
         Self::Indirect,
         Self::Environment,
         Self::MeshLights,
+        Self::NormalMaps,
+        Self::Alpha,
+        Self::Dispersion,
     ];
 
     /// The name by which people know it.
@@ -64,6 +73,9 @@ impl Effect {
             Self::Indirect => "indirect",
             Self::Environment => "environment",
             Self::MeshLights => "mesh_lights",
+            Self::NormalMaps => "normal_maps",
+            Self::Alpha => "alpha",
+            Self::Dispersion => "dispersion",
         }
     }
 }
@@ -141,10 +153,33 @@ impl Found<'_> {
             MaterialKind::Phong { .. } => &[Effect::Indirect, Effect::Glossy],
             MaterialKind::Mirror { .. } => &[Effect::Specular],
             MaterialKind::Metal { .. } => &[Effect::Glossy],
-            MaterialKind::Glass { absorption, .. } if absorption.is_black() => {
-                &[Effect::Specular, Effect::Dielectrics]
+            MaterialKind::Glass { absorption, roughness, abbe, .. } => {
+                if let Some(abbe) = abbe {
+                    self.add(Effect::Dispersion, abbe.span);
+                }
+                match (is_black(roughness), absorption.is_black()) {
+                    (true, true) => &[Effect::Specular, Effect::Dielectrics],
+                    (true, false) => &[Effect::Specular, Effect::Dielectrics, Effect::Absorption],
+                    (false, true) => &[Effect::Specular, Effect::Dielectrics, Effect::Glossy],
+                    (false, false) => {
+                        &[Effect::Specular, Effect::Dielectrics, Effect::Glossy, Effect::Absorption]
+                    }
+                }
             }
-            MaterialKind::Glass { .. } => &[Effect::Specular, Effect::Dielectrics, Effect::Absorption],
+            MaterialKind::Plastic { .. } => &[Effect::Indirect, Effect::Glossy],
+            MaterialKind::Layer { .. } => &[Effect::Glossy],
+            MaterialKind::Principled(of) => {
+                if !of.emission.value.is_black() {
+                    self.add(Effect::MeshLights, of.emission.span);
+                }
+                match is_black(&of.transmission) {
+                    true => &[Effect::Indirect, Effect::Glossy],
+                    false => &[Effect::Indirect, Effect::Glossy, Effect::Specular, Effect::Dielectrics],
+                }
+            }
+            MaterialKind::Mask { .. } => &[Effect::Alpha],
+            MaterialKind::NormalMap { .. } | MaterialKind::Bump { .. } => &[Effect::NormalMaps],
+            MaterialKind::TwoSided { .. } => &[],
             MaterialKind::Emissive { .. } => &[Effect::MeshLights],
             MaterialKind::Whitted { reflection, transmission, .. } => {
                 if is_black(transmission) && is_black(reflection) {
@@ -175,6 +210,7 @@ impl Found<'_> {
             _ => texture.span,
         };
         self.add(Effect::Textures, span);
+        texture.kind.inputs().iter().for_each(|input| self.input(input));
     }
 
     fn lights(&mut self) {

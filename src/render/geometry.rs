@@ -1,10 +1,12 @@
 //! All that can be hit, behind one interface: the tree over what is bounded, a list of what is not.
 
+mod gradient;
 mod instance;
 mod sampling;
 mod surface;
 
-pub use sampling::{AreaSample, DirectionSample};
+pub use gradient::Gradient;
+pub use sampling::{AreaSample, DirectionSample, Outline};
 
 use super::accel::Wide;
 use super::shape::solid::{PlacedSolid, SolidHit};
@@ -152,11 +154,15 @@ impl Geometry {
         self.first_solid() + self.solids.len() as u32
     }
 
-    /// The material and the primitives of each mesh, then of each instance, in the order given.
-    pub fn mesh_prims(&self) -> impl Iterator<Item = (MaterialId, Range<u32>)> {
-        let materials = self.meshes.iter().map(|mesh| mesh.material);
-        let placed = self.instances.iter().map(|placed| placed.instance.material);
-        materials.chain(placed).zip(self.first_prims.windows(2).map(|pair| pair[0]..pair[1]))
+    /// The primitives of each mesh, in the order given.
+    pub fn mesh_prims(&self) -> impl Iterator<Item = (&Mesh, Range<u32>)> {
+        self.meshes.iter().zip(self.first_prims.windows(2).map(|pair| pair[0]..pair[1]))
+    }
+
+    /// The primitives of each instance, in the order given.
+    pub fn instance_prims(&self) -> impl Iterator<Item = (&Instance, Range<u32>)> {
+        let ranges = self.first_prims[self.meshes.len()..].windows(2).map(|pair| pair[0]..pair[1]);
+        self.instances.iter().map(|placed| &placed.instance).zip(ranges)
     }
 
     /// The primitive of each solid, in the order given.

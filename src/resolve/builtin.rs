@@ -261,7 +261,9 @@ impl<'a> Resolver<'a> {
             Some(dimension) => self.result(builtin, args, value, dimension, used),
             None => {
                 let text = self.text(args[0].span);
-                let help = format!("take its unit away first, as in `({text}) / 1m`");
+                let is_one = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '.' || c == '_');
+                let base = if is_one { text } else { format!("({text})") };
+                let help = format!("take its unit away first, as in `{base} / 1m`");
                 let wanted = if exponent == 0.5 { "a plain number or an area" } else { "a plain number" };
                 self.wrong_type(wanted, &args[0].value.noun(), args[0].span, &help)
             }

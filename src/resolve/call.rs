@@ -64,7 +64,6 @@ impl<'a> Resolver<'a> {
     ) -> Value<'a> {
         let definition = function.definition;
         let name = &definition.name;
-        self.called.insert(name.span);
         if self.calls.contains(&name.span) {
             let error = Error::Recursion { name: name.value.clone(), called: used, defined: name.span };
             return self.poison(error);
@@ -75,6 +74,7 @@ impl<'a> Resolver<'a> {
         if !complete {
             return Value::Poison;
         }
+        self.called.insert(name.span);
         self.trail.push(Step::Call(name, used));
         let value = self.run(function, &scope);
         self.trail.pop();
@@ -205,7 +205,15 @@ impl<'a> Resolver<'a> {
         let ty = Type::named(name);
         if ty.is_none() {
             let names = || Type::NAMED.iter().map(|known| known.name);
-            let help = did_you_mean(name, names())
+            let foreign = Type::foreign(name).map(|ours| match ours {
+                "number" => {
+                    "it is called `number` here; with a unit it is a `length`, an `angle`, a `time` .."
+                        .to_owned()
+                }
+                ours => format!("it is called `{ours}` here"),
+            });
+            let help = foreign
+                .or_else(|| did_you_mean(name, names()))
                 .unwrap_or_else(|| format!("the types are {}", names().collect::<Vec<_>>().join(", ")));
             self.report(Error::UnknownType { name: name.value.clone(), used: name.span, help });
         }

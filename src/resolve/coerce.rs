@@ -12,6 +12,7 @@ use crate::math::Rgb;
 use crate::schema::{self, Type};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind};
+use crate::syntax::spelled_out;
 
 /// Below this a black body does not glow; above the upper end its colour stays the same.
 const GLOWING: std::ops::RangeInclusive<f64> = 100.0..=1e9;
@@ -246,6 +247,13 @@ impl<'a> Resolver<'a> {
             (Type::Color | Type::ColorInput | Type::LightColor, Value::Tuple(_)) => {
                 format!("write `rgb{text}`")
             }
+            (Type::Texture | Type::ColorInput | Type::NumberInput | Type::SkyInput, Value::Text(_)) => {
+                format!("a picture is `image({text})`")
+            }
+            (Type::Stop, Value::Number(count)) if count.dimension == Dimension::NONE => {
+                format!("write `samples({text})`")
+            }
+            (Type::Bool, Value::Number(_)) => format!("compare it, as in `{text} == 0`"),
             (_, Value::Function(_)) => format!("call it: `{text}(..)`"),
             (_, Value::Builtin(builtin)) => format!("call it, as in `{}`", builtin.function.example),
             (Type::Point | Type::Offset | Type::Vector, Value::List(_)) => {
@@ -281,7 +289,11 @@ pub fn unknown_word(word: &str, words: &'static [&'static str], used: Span) -> E
         return Error::NotYet { word: word.to_owned(), used, help };
     }
     let wanted = Type::Choice(words).noun();
-    let help = did_you_mean(word, words.iter().copied())
+    let ours = Type::foreign_word(word, words)
+        .or_else(|| spelled_out(word).and_then(|unit| words.iter().copied().find(|word| *word == unit)));
+    let help = ours
+        .map(|ours| format!("it is called `{ours}` here"))
+        .or_else(|| did_you_mean(word, words.iter().copied()))
         .unwrap_or_else(|| format!("write for example `{}`", words[0]));
     Error::UnknownWord { word: word.to_owned(), wanted, used, help }
 }

@@ -127,9 +127,10 @@ pub enum Error {
         defined: Span,
     },
     #[error("`{name}` needs itself")]
-    #[diagnostic(code(snell::resolve::cycle), help("one of these has to be said without the others"))]
+    #[diagnostic(code(snell::resolve::cycle), help("{help}"))]
     Cycle {
         name: String,
+        help: String,
         #[label(collection)]
         steps: Vec<LabeledSpan>,
     },
@@ -167,8 +168,9 @@ pub enum Error {
         first: Span,
     },
     #[error("`{one}` and `{other}` say the same thing twice")]
-    #[diagnostic(code(snell::resolve::conflicting_fields), help("keep one of them"))]
+    #[diagnostic(code(snell::resolve::conflicting_fields), help("{help}"))]
     ConflictingFields {
+        help: String,
         one: String,
         other: String,
         #[label("and this")]

@@ -5,7 +5,7 @@ use super::builtin;
 use super::dimension::{Dimension, Quantity, with_unit};
 use super::error::Error;
 use super::meant::{Wanted, unknown_unit};
-use super::scope::{Kind, Scope};
+use super::scope::{Definition, Kind, Scope};
 use super::{Env, Resolver, Step, Value, color};
 use crate::ir;
 use crate::schema::Type;
@@ -145,6 +145,7 @@ impl<'a> Resolver<'a> {
         }
         let names = scope.in_order();
         let help = self.propose(field, names.iter().map(|definition| definition.name));
+        let help = help.or_else(|| what_it_holds(&names));
         let owner = format!("`{}`", self.text(module));
         self.unknown_member(&owner, field, help)
     }
@@ -367,4 +368,12 @@ fn named(value: &Value) -> Option<u32> {
         Value::Object(node) => node.name(),
         _ => None,
     }
+}
+
+/// The first names of an import, for those who ask for another.
+fn what_it_holds(names: &[Rc<Definition<'_>>]) -> Option<String> {
+    const MOST: usize = 12;
+    let shown: Vec<&str> = names.iter().take(MOST).map(|definition| definition.name).collect();
+    let more = if names.len() > MOST { " .." } else { "" };
+    (!shown.is_empty()).then(|| format!("it holds {}{more}", shown.join(", ")))
 }

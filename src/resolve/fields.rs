@@ -176,13 +176,18 @@ impl<'a> Resolver<'a> {
     }
 
     /// Reports two ways to say the same thing.
-    fn conflict(&mut self, fields: &Fields<'a>, one: &[&str], other: &[&str]) {
+    fn conflict(&mut self, fields: &Fields<'a>, one: &[&'static str], other: &[&'static str]) {
+        let ways = [one, other].map(|way| fields.mandatory(way));
+        let help = match ways.iter().any(|way| way.len() > 1) {
+            true => format!("write `{}`, or `{}`", ways[0].join("` and `"), ways[1].join("` and `")),
+            false => "keep one of them".to_owned(),
+        };
         let (Some((one, first)), Some((other, second))) = (fields.first_of(one), fields.first_of(other))
         else {
             return;
         };
         let (one, other) = (one.to_owned(), other.to_owned());
-        self.report(Error::ConflictingFields { one, other, first, second });
+        self.report(Error::ConflictingFields { help, one, other, first, second });
     }
 }
 
@@ -196,9 +201,19 @@ pub fn unknown_field_help(block: &schema::Block, name: &Name) -> String {
     if let Some(ours) = ours {
         return match (ours, name.as_str()) {
             ("transform", "rotation") => "write `transform: rotate_y(..)`".to_owned(),
+            ("stop", word) if word != "stop" => "write `stop: samples(64)`".to_owned(),
             ("transform", word) => format!("write `transform: {word}(..)`"),
             _ => format!("it is called `{ours}` here"),
         };
+    }
+    match (block.kind, name.as_str()) {
+        ("environment", "image" | "map" | "file" | "texture" | "picture" | "hdri" | "background") => {
+            return "write `radiance: image(\"sky.hdr\")`".to_owned();
+        }
+        ("environment", "color" | "colour" | "intensity" | "power") => {
+            return "it is called `radiance` here".to_owned();
+        }
+        _ => {}
     }
     let near = nearest(name, block.fields().map(|field| field.name));
     if !near.is_empty() {

@@ -7,7 +7,7 @@ use super::{Env, Resolver, Value, builtin};
 use crate::diag::{did_you_mean_one_of, is_slip_of, nearest_of_kind};
 use crate::schema::{self, Type};
 use crate::source::Span;
-use crate::syntax::ast::Name;
+use crate::syntax::{ast::Name, spelled_out};
 use std::rc::Rc;
 
 /// What may stand where a name does.
@@ -70,6 +70,10 @@ impl<'a> Resolver<'a> {
         let own = visible.iter().map(|definition| (definition.name, fits(definition, wanted)));
         let near = nearest_of_kind(name, own.chain(known_words(wanted)));
         self.proposed.extend(near.iter().map(|&name| name.to_owned()));
+        let is_bare_block = |name: &&&str| schema::block(name).is_some() && builtin::find(name).is_none();
+        if let Some(kind) = near.first().filter(is_bare_block).filter(|name| env.find(name).is_none()) {
+            return Some(format!("did you mean `{kind} {{ .. }}`?"));
+        }
         did_you_mean_one_of(&near)
     }
 
@@ -179,27 +183,4 @@ fn known_words<'n>(wanted: Wanted) -> impl Iterator<Item = (&'n str, bool)> {
         .chain(words.iter().copied())
         .map(|word| -> (&'n str, bool) { (word, true) });
     functions.chain(colors).chain(own)
-}
-
-/// The unit that a word spells out.
-fn spelled_out(unit: &str) -> Option<&'static str> {
-    let lower = unit.to_ascii_lowercase();
-    Some(match lower.strip_suffix('s').unwrap_or(&lower) {
-        "millimeter" | "millimetre" => "mm",
-        "centimeter" | "centimetre" => "cm",
-        "meter" | "metre" => "m",
-        "kilometer" | "kilometre" => "km",
-        "inch" | "inche" => "in",
-        "foot" | "feet" => "ft",
-        "degree" | "°" => "deg",
-        "radian" => "rad",
-        "sec" | "second" => "s",
-        "minute" => "min",
-        "watt" => "W",
-        "lumen" => "lm",
-        "kelvin" => "K",
-        "pixel" => "px",
-        "percent" => "%",
-        _ => return None,
-    })
 }

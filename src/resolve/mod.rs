@@ -16,6 +16,7 @@ mod doubt;
 mod error;
 mod expr;
 mod fields;
+mod intent;
 mod item;
 mod lint;
 mod meant;
@@ -77,7 +78,6 @@ pub fn resolve_within(
     if program.files.is_empty() {
         return ir::Scene::default();
     }
-    // What seems unused may be used where the text could not be read.
     let readable = !problems.has_errors();
     let doubtful = doubtful_words(sources, problems);
     let findings = lint::lint(program, problems);
@@ -88,9 +88,8 @@ pub fn resolve_within(
     resolver.run_file(FileIndex(0));
     resolver.evaluate_the_rest();
     resolver.report_doubts(findings.doubts);
-    if readable {
-        resolver.report_unused(findings.unused);
-    }
+    resolver.report_unused(findings.unused, readable);
+    resolver.note_intent();
     resolver.scene
 }
 
@@ -132,7 +131,7 @@ struct Resolver<'a> {
     running: Vec<Rc<Definition<'a>>>,
     /// The functions we are in, by the places of their names.
     calls: Vec<Span>,
-    /// The functions that were called at least once.
+    /// The functions whose bodies a call has come to at least once.
     called: FxHashSet<Span>,
     /// The parts that may be left out and were not, by the offsets at which they begin.
     entered: FxHashSet<u32>,
@@ -257,13 +256,20 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Warns of definitions that nothing uses, unless a misspelt name may have meant them.
-    fn report_unused(&mut self, mut unused: Vec<lint::Unused<'a>>) {
+    /// Warns of definitions that nothing uses, unless a misspelt name may have meant them. In a text that could not be
+    /// read as it is, only what is named nowhere else, and nearly named on no line with a mistake, is surely unused.
+    fn report_unused(&mut self, mut unused: Vec<lint::Unused<'a>>, readable: bool) {
         let root = self.root(FileIndex(0));
         let is_wrong = |name: &str| {
             root.own(name).is_some_and(|own| matches!(&*own.state.borrow(), State::Done(Value::Poison)))
         };
         unused.retain(|found| !self.proposed.contains(found.name) && !is_wrong(found.name));
+        if !readable {
+            let is_sure = |name: &str| self.count_of(name) == 1 && !self.may_be_in_doubtful_line(name);
+            // A silence that could not be read may be meant for any of them.
+            let is_unsure = self.program.lacks_files || self.doubtful.contains_key("allow");
+            unused.retain(|found| !is_unsure && is_sure(found.name));
+        }
         for found in unused {
             self.report(found.error());
         }
@@ -377,7 +383,12 @@ impl<'a> Resolver<'a> {
             let text = format!("`{}` needs `{}`", from.name, to.name);
             miette::LabeledSpan::new_with_span(Some(text), from.span)
         };
-        Error::Cycle { name: again.name.to_owned(), steps: round.iter().enumerate().map(label).collect() }
+        let name = again.name.to_owned();
+        let help = match color::named(&name) {
+            Some(_) => format!("this name hides the colour `{name}`: choose another, such as `{name}_paint`"),
+            None => "one of these has to be said without the others".to_owned(),
+        };
+        Error::Cycle { name, help, steps: round.iter().enumerate().map(label).collect() }
     }
 
     /// Evaluates what nothing has asked for, so that its mistakes are found in the same run.

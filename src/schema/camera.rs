@@ -42,6 +42,10 @@ const THIN: &[Field] = &[
 
 const FILM: &[Field] = &[
     field("size", Type::Size, "Pixels, width by height.").or_size(640, 480),
+    field("pixel_aspect", Type::Number, "The width of a pixel by its height.")
+        .or(1.0)
+        .within(SIZE)
+        .like("1.2"),
     field("filter", Type::Filter, "How pixels share a sample.").or_word("tent(1px)"),
     field("sensor", Type::Length, "Its width.").or(0.036).within(SIZE).like("36mm"),
     field("exposure", Type::Exposure, "Steps brighter, or `auto` for a log-average of 0.18.").or(0.0),

@@ -7,6 +7,7 @@
 mod camera;
 mod colors;
 mod field;
+mod foreign;
 mod function;
 mod items;
 mod library;

@@ -112,6 +112,9 @@ impl Type {
     /// The laws of fading that have a name.
     pub const FALLOFFS: &'static [&'static str] = &["physical", "none"];
 
+    /// The blocks that are projections of pictures.
+    const PROJECTIONS: &'static [&'static str] = &["planar", "spherical", "cubic"];
+
     /// The types that a `param` or a function may name.
     pub const NAMED: &'static [NamedType] = &[
         named("int", Self::Int, "A whole number."),
@@ -263,9 +266,9 @@ impl Type {
             Self::Block(kind) => kind == block.kind,
             Self::Method => block.kind == "classic",
             Self::Lens => block.area == Area::Camera && block.kind != "film",
-            Self::Projection => block.kind == "planar",
+            Self::Projection => Self::PROJECTIONS.contains(&block.kind),
             Self::Texture | Self::ColorInput | Self::NumberInput => {
-                block.area == Area::Texture && block.kind != "planar"
+                block.area == Area::Texture && !Self::PROJECTIONS.contains(&block.kind)
             }
             Self::SkyInput => block.kind == "image",
             Self::Material => block.area == Area::Material,

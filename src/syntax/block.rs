@@ -1,11 +1,15 @@
 //! Sequences: the entries of files and blocks, the elements between parentheses and brackets, and what separates them.
 
-use super::ast::{Allow, Block, Entry, Expr, ExprKind, Field, Item, ItemKind, Name};
+use super::ast::{Allow, Block, Entry, Expr, ExprKind, Field, Item, ItemKind, Name, Place};
 use super::error::SyntaxError;
+use super::foreign::glued_unit;
 use super::grammar::{Parts, Rule};
 use super::lower::{Lower, is_reserved, item, poison};
 use crate::diag::did_you_mean;
 use pest::iterators::Pair;
+
+/// How the functions begin that move things.
+const MOVES: [&str; 6] = ["translate", "scale", "rotate", "look_at", "matrix", "moving"];
 
 /// What has been read of a sequence of entries.
 #[derive(Default)]
@@ -96,6 +100,9 @@ impl Lower<'_> {
         if self.begins_comment(start) {
             return self.foreign_comment(start, sequence);
         }
+        if follows_on_line && self.misses_place(&pair, sequence) {
+            return;
+        }
         if follows_on_line && rule == Rule::expr && self.continues_value(&pair, sequence) {
             return;
         }
@@ -138,14 +145,13 @@ impl Lower<'_> {
         part
     }
 
-    /// Whether a comment as other languages write it begins here: `# ..` anywhere, `-- ..` and `; ..` on a line of its own.
+    /// Whether a comment as other languages write it begins here: `# ..` and `-- ..` anywhere, `; ..` on a line of its own.
     fn begins_comment(&self, start: usize) -> bool {
         let rest = &self.text.text[start..];
-        let is_alone = || self.text.begins_line(start);
         let goes_on = |sign: &str| {
             rest.strip_prefix(sign).is_some_and(|rest| !rest.trim_start_matches(' ').starts_with('\n'))
         };
-        goes_on("# ") || (goes_on("-- ") || goes_on("; ")) && is_alone()
+        goes_on("# ") || goes_on("-- ") || goes_on("; ") && self.text.begins_line(start)
     }
 
     fn foreign_comment(&mut self, start: usize, sequence: &mut Sequence) {
@@ -172,11 +178,15 @@ impl Lower<'_> {
             let hint = format!("the decimal sign is a point: `{}.{second}`", numeral.unwrap_or_default());
             let at = self.text.span(start - 1, start);
             self.note(SyntaxError::WrongSign { written: ",".to_owned(), wanted: ".", hint, at });
+        } else if let Some(glued) = glued_unit(value, before, written) {
+            let at = self
+                .text
+                .span(start, start + written.find(|c: char| !c.is_alphanumeric()).unwrap_or(written.len()));
+            self.note(SyntaxError::ApartUnit { glued, at });
         } else if last == Last::Open && self.may_begin_entry(Rule::expr, start) {
             let is_moved = matches!(value.kind, ExprKind::Call { .. } | ExprKind::Binary { .. });
-            let moves = ["translate", "scale", "rotate", "look_at", "matrix", "moving"];
             let at = self.text.after_token(start);
-            if is_moved && moves.iter().any(|word| written.starts_with(word)) {
+            if is_moved && MOVES.iter().any(|word| written.starts_with(word)) {
                 let hint = "write `then` between them: the left one is applied first".to_owned();
                 let place = "between two transforms".to_owned();
                 self.note(SyntaxError::MissingSign { sign: "then", place, hint, at });
@@ -191,6 +201,30 @@ impl Lower<'_> {
             return false;
         }
         sequence.spoil_last();
+        sequence.last = Last::Mistake;
+        true
+    }
+
+    /// Reports what follows a thing on its line as only the block of a `place` may: `ring(5) { .. }`, where a block after
+    /// a call is no block of it, and `place ring(5) rotate_y(3deg)`.
+    fn misses_place(&mut self, next: &Pair<'_, Rule>, sequence: &mut Sequence) -> bool {
+        let Some(Entry::Item(Item { kind, .. })) = sequence.entries.last() else { return false };
+        let (start, written) = (next.as_span().start(), next.as_str());
+        let is_move = next.as_rule() == Rule::expr && MOVES.iter().any(|word| written.starts_with(word));
+        let (what, hint) = match kind {
+            ItemKind::Value(Expr { kind: ExprKind::Call { callee, .. }, .. })
+                if next.as_rule() == Rule::block =>
+            {
+                let ExprKind::Name(name) = &callee.kind else { return false };
+                ("a block after a call", format!("write `place {name}(..) {{ .. }}`"))
+            }
+            ItemKind::Place(Place { body: None, .. }) if is_move => {
+                ("a transform after a thing", "write `place .. { transform: .. }`".to_owned())
+            }
+            _ => return false,
+        };
+        let at = self.text.first_char(start);
+        self.note(SyntaxError::Unreadable { what: what.to_owned(), hint, at });
         sequence.last = Last::Mistake;
         true
     }
@@ -239,10 +273,20 @@ impl Lower<'_> {
 
     /// `field = { ident ~ (":" | wrong_equals) ~ given }`, `bare_field = { bare_name ~ missing_colon ~ value }`
     fn field_entry(&mut self, pair: Pair<'_, Rule>, in_block: bool, sequence: &mut Sequence) {
+        let (start, written) = (pair.as_span().start(), pair.as_str());
         let mut parts = Parts::of(pair);
         let Some(name) = parts.next().map(|name| self.word(&name)) else { return };
         if is_reserved(&name) {
             return self.reserved_field(name, sequence);
+        }
+        // `sphere ( radius: 1m )`
+        let paren = name.value.len() + written[name.value.len()..].find(|c| c != ' ').unwrap_or(0);
+        if written[paren..].starts_with('(') && written[paren..].contains(':') {
+            let hint = format!("a block stands between braces: `{} {{ .. }}`", name.value);
+            let at = self.text.first_char(start + paren);
+            self.note(SyntaxError::WrongSign { written: "(".to_owned(), wanted: "{", hint, at });
+            sequence.push(item(ItemKind::Poison, name.span));
+            return;
         }
         // What stands outside every block is no field, so its sign is not worth a word.
         if !in_block {

@@ -75,7 +75,7 @@ impl Lower<'_> {
         lowered.unwrap_or_else(|| item(ItemKind::Poison, span))
     }
 
-    /// `condition = { kw_if ~ (expr | missing_value) ~ body }`, with the place where it begins
+    /// `condition = { kw_if ~ (before_body | missing_value) ~ body }`, with the place where it begins
     fn condition(&mut self, pair: Pair<'_, Rule>) -> (Expr, Block, Span) {
         let start = self.text.span_of(&pair);
         let mut parts = Parts::of(pair);

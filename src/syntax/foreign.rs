@@ -1,5 +1,6 @@
 //! Scenes of other programs, known by how they begin.
 
+use super::ast::{Expr, ExprKind};
 use super::error::SyntaxError;
 use super::text::Text;
 
@@ -64,3 +65,34 @@ pub(super) const PBRT: (&str, &str) = (
     "pbrt's language",
     "begin with `snell 1`; a shape is `sphere { radius: 5cm }`, what moves it is its `transform`",
 );
+
+/// The unit that a word spells out.
+pub fn spelled_out(unit: &str) -> Option<&'static str> {
+    let lower = unit.to_ascii_lowercase();
+    Some(match lower.strip_suffix('s').unwrap_or(&lower) {
+        "millimeter" | "millimetre" => "mm",
+        "centimeter" | "centimetre" => "cm",
+        "meter" | "metre" => "m",
+        "kilometer" | "kilometre" => "km",
+        "inch" | "inche" => "in",
+        "foot" | "feet" => "ft",
+        "degree" | "°" => "deg",
+        "radian" => "rad",
+        "sec" | "second" => "s",
+        "minute" => "min",
+        "watt" => "W",
+        "lumen" => "lm",
+        "kelvin" => "K",
+        "pixel" => "px",
+        "percent" => "%",
+        _ => return None,
+    })
+}
+
+/// A number without a unit and the unit that the word after it spells out, as they would be written: `100W`.
+pub(super) fn glued_unit(value: &Expr, before: &str, after: &str) -> Option<String> {
+    let ExprKind::Number { unit: None, .. } = value.kind else { return None };
+    let unit = spelled_out(after.split(|c: char| !c.is_alphanumeric()).next()?)?;
+    let numeral = before.trim_end().rsplit(|c: char| !(c.is_ascii_digit() || "._".contains(c))).next()?;
+    Some(format!("{numeral}{unit}"))
+}

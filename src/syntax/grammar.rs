@@ -75,6 +75,7 @@ fn is_silent(rule: Rule) -> bool {
             | kw_let
             | kw_fn
             | kw_for
+            | kw_while
             | kw_place
             | kw_if
             | kw_else

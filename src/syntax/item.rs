@@ -234,14 +234,16 @@ impl Lower<'_> {
         self.of_type(parts, name, "fn ring(n: int) -> object")
     }
 
-    /// `repeat = { kw_for ~ (wrapped | counting | loop_name ~ kw_in ~ expr) ~ body }`
+    /// `repeat = { (kw_while ~ endless | kw_for ~ (wrapped | counting | loop_name ~ kw_in ~ before_body)) ~ body }`
     fn repeat(&mut self, pair: Pair<'_, Rule>) -> ItemKind {
         let mut parts = Parts::of(pair);
-        if let Some(counting) = parts.take(Rule::counting) {
-            let hint = "a loop runs over a range: write `for i in 0..3 { .. }`".to_owned();
-            let (what, at) = ("a loop that counts".to_owned(), self.text.span_of(&counting));
-            self.note(SyntaxError::Unreadable { what, hint, at });
-            return ItemKind::Poison;
+        for (rule, what) in [(Rule::counting, "a loop that counts"), (Rule::endless, "`while`")] {
+            if let Some(foreign) = parts.take(rule) {
+                let hint = "a loop runs over a range: write `for i in 0..3 { .. }`".to_owned();
+                let (what, at) = (what.to_owned(), self.text.trimmed_span_of(&foreign));
+                self.note(SyntaxError::Unreadable { what, hint, at });
+                return ItemKind::Poison;
+            }
         }
         let (name, range) = match parts.take(Rule::wrapped) {
             Some(wrapped) => {
@@ -257,7 +259,7 @@ impl Lower<'_> {
         name.map_or(ItemKind::Poison, |name| ItemKind::For { name, range, body })
     }
 
-    /// `loop_name ~ kw_in ~ expr`
+    /// `loop_name ~ kw_in ~ before_body`
     pub(super) fn loop_over(&mut self, parts: &mut Parts<'_>) -> (Option<Name>, Expr) {
         let name = self.binder(parts, "this loop", "i");
         if let Some(missing) = parts.take(Rule::missing_in) {

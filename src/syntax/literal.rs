@@ -21,6 +21,7 @@ impl Lower<'_> {
             Rule::colour => self.colour(&pair),
             Rule::data => self.data(pair),
             Rule::quoted => self.quoted(&pair),
+            Rule::angled => self.angled(&pair),
             _ => self.unknown(&pair),
         };
         Expr { kind, span }
@@ -110,6 +111,14 @@ impl Lower<'_> {
     }
 
     /// A text in quotes of another kind.
+    /// `<0, 1, 2>`
+    fn angled(&mut self, pair: &Pair<'_, Rule>) -> ExprKind {
+        let hint = format!("points stand in parentheses: `({})`", pair.as_str().trim_matches(['<', '>']));
+        let (what, at) = ("a point between `<` and `>`".to_owned(), self.text.span_of(pair));
+        self.note(SyntaxError::Unreadable { what, hint, at });
+        ExprKind::Poison
+    }
+
     fn quoted(&mut self, pair: &Pair<'_, Rule>) -> ExprKind {
         let text = pair.as_str().trim_matches(|c: char| !c.is_ascii_alphanumeric() && !"./_-".contains(c));
         self.note(SyntaxError::WrongQuotes { text: text.to_owned(), at: self.text.span_of(pair) });

@@ -27,6 +27,7 @@ use crate::source::{FileId, Files, SourceMap};
 use std::path::PathBuf;
 
 pub use error::SyntaxError;
+pub use foreign::spelled_out;
 
 /// Reads the main file and all that it includes and imports, each file once.
 ///

@@ -227,21 +227,34 @@ fn walk_lights(lights: &Node, path: &Path, shapes: &mut Vec<Placed>) {
             let (p, u, v) = (light.vector("position")?, light.vector(a)?, light.vector(b)?);
             Some(Shape::Parallelogram(p - u - v, 2.0 * u, 2.0 * v, false))
         };
-        let shape = around("x_axis", "y_axis").or_else(|| around("dirX", "dirY")).or_else(|| {
-            match (light.vector("position"), light.number("radius")) {
-                (Some(p), Some(radius)) if light.name == "SphereLight" => Some(Shape::Ball(p, radius)),
-                (Some(p), Some(radius)) if light.name != "PointLight" && light.name != "SpotLight" => {
-                    let normal = light.vector("normal").or(light.vector("direction"))?;
-                    Some(Shape::Disk(p, normal.normalize(), radius))
-                }
-                _ if light.name == "RecLight" => {
-                    let way = light.vector("direction")?.normalize();
-                    let u = light.vector("up")?.normalize();
-                    let (u, v) = (u * light.number("dx")?, way.cross(u) * light.number("dy")?);
-                    Some(Shape::Parallelogram(light.vector("position")? - 0.5 * (u + v), u, v, false))
-                }
-                _ => light.blocks().find_map(|block| shape(block, path)),
+        let corners = |names: [&str; 3], is_triangle: bool| {
+            let [a, b, c] = names.map(|name| light.vector(name));
+            Some(Shape::Parallelogram(a?, b? - a?, c? - a?, is_triangle))
+        };
+        let along = || {
+            let (u, v) = (light.vector("U")?.normalize(), light.vector("V")?.normalize());
+            let (u, v) = (u * light.number("LU")?, v * light.number("LV")?);
+            Some(Shape::Parallelogram(light.vector("origin")? - u - v, 2.0 * u, 2.0 * v, false))
+        };
+        let by_corners = || match light.name.as_str() {
+            "QuadLight" => corners(["A", "B", "C"], false),
+            "LightTriangle" => corners(["vertex0", "vertex1", "vertex2"], true),
+            _ => along(),
+        };
+        let flat = around("x_axis", "y_axis").or_else(|| around("dirX", "dirY")).or_else(by_corners);
+        let shape = flat.or_else(|| match (light.vector("position"), light.number("radius")) {
+            (Some(p), Some(radius)) if light.name == "SphereLight" => Some(Shape::Ball(p, radius)),
+            (Some(p), Some(radius)) if light.name != "PointLight" && light.name != "SpotLight" => {
+                let normal = light.vector("normal").or(light.vector("direction"))?;
+                Some(Shape::Disk(p, normal.normalize(), radius))
             }
+            _ if light.name == "RecLight" => {
+                let way = light.vector("direction")?.normalize();
+                let u = light.vector("up")?.normalize();
+                let (u, v) = (u * light.number("dx")?, way.cross(u) * light.number("dy")?);
+                Some(Shape::Parallelogram(light.vector("position")? - 0.5 * (u + v), u, v, false))
+            }
+            _ => light.blocks().find_map(|block| shape(block, path)),
         });
         shapes.extend(shape.map(|shape| Placed { shape, from_world: DAffine3::IDENTITY }));
     }
@@ -340,6 +353,13 @@ fn shape(block: &Node, path: &Path) -> Option<Shape> {
         "TriangleMesh" => mesh(block, block.after("obj_file").first()?, path),
         "TinyObj" => mesh(block, block.words().first()?, path),
         "RevSurface" => Some(Shape::Turned(profile(block.blocks().next()?))),
+        // Both ends on the y axis.
+        "Cylinder" => {
+            let (words, radius) = (block.words(), block.number("radius")?);
+            let height = |at: usize| words.get(at + 2)?.parse().ok();
+            let ends = (0..words.len()).filter(|&at| words[at] == "endpoint").filter_map(height);
+            Some(Shape::Turned(ends.map(|y| (radius, y)).collect()))
+        }
         _ => None,
     }
 }

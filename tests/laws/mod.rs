@@ -1,5 +1,6 @@
 //! What physics and sampling theory promise.
 
+mod choice;
 mod light;
 mod scattering;
 mod statistics;

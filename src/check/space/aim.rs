@@ -1,7 +1,7 @@
 //! Flat lights that shine to one side: that something is there, and more than a hair's breadth away.
 
 use super::region::Region;
-use super::{CheckError, Survey, Thing, plane_of};
+use super::{SpaceError, Survey, Thing, plane_of};
 use crate::ir::{LightKind, ShapeKind};
 use crate::math::DVec3;
 use crate::source::Span;
@@ -39,7 +39,7 @@ impl Panel {
 
 impl Survey<'_> {
     /// Lights that shine away from everything, or into a wall.
-    pub(super) fn aims(&self) -> Vec<CheckError> {
+    pub(super) fn aims(&self) -> Vec<SpaceError> {
         self.panels()
             .iter()
             .filter_map(|panel| self.away(panel).or_else(|| self.against_wall(panel)))
@@ -68,7 +68,7 @@ impl Survey<'_> {
     }
 
     /// A light with nothing before it: no object, no camera that would see it shine.
-    fn away(&self, panel: &Panel) -> Option<CheckError> {
+    fn away(&self, panel: &Panel) -> Option<SpaceError> {
         let slack = ROUNDING * panel.corners.iter().map(|p| p.length()).fold(panel.size(), f64::max);
         let is_before = |region: &Region| panel.reach(region) > slack;
         let others = || self.things.iter().enumerate().filter(|(index, _)| panel.owner != Some(*index));
@@ -78,14 +78,14 @@ impl Survey<'_> {
                 None => panel.meets_plane(thing, slack),
             });
         let is_seen = !self.eyes.is_empty() && others().next().is_some();
-        (!anything && is_seen).then_some(CheckError::LightFacesAway { light: panel.span, help: panel.cure() })
+        (!anything && is_seen).then_some(SpaceError::LightFacesAway { light: panel.span, help: panel.cure() })
     }
 
     /// A light whose way is barred all over by something flat and opaque.
-    fn against_wall(&self, panel: &Panel) -> Option<CheckError> {
+    fn against_wall(&self, panel: &Panel) -> Option<SpaceError> {
         let opaque = self.things.iter().filter(|thing| thing.stuff.is_opaque);
         let wall = opaque.filter(|thing| panel.is_covered_by(thing)).map(|thing| thing.object.span).next()?;
-        Some(CheckError::LightAgainstWall { light: panel.span, wall, help: panel.cure() })
+        Some(SpaceError::LightAgainstWall { light: panel.span, wall, help: panel.cure() })
     }
 }
 

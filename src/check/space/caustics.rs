@@ -1,7 +1,7 @@
 //! Caustics that path tracing does not find: light reaches a matt surface by way of glass or a mirror, and a path from
 //! there has to hit the light by chance.
 
-use super::{CheckError, Survey, Thing};
+use super::{SpaceError, Survey, Thing};
 use crate::ir::{Light, LightKind, Method};
 use crate::math::DVec3;
 use crate::source::Span;
@@ -11,7 +11,7 @@ const SELDOM: f64 = 1e-4;
 
 impl Survey<'_> {
     /// Lights whose caustics the scene's own method misses.
-    pub(super) fn caustics(&self) -> Vec<CheckError> {
+    pub(super) fn caustics(&self) -> Vec<SpaceError> {
         let method = self.scene.render.method.filter(|method| method.value == Method::Pt);
         let is_seen = self.things.iter().any(|thing| thing.stuff.is_rough);
         match method {
@@ -21,18 +21,18 @@ impl Survey<'_> {
     }
 
     /// One report: the method is the mistake, not each of the lights.
-    fn missed(&self, method: Span) -> Option<CheckError> {
+    fn missed(&self, method: Span) -> Option<SpaceError> {
         let lights = || self.scene.lights.iter().filter(|light| light.brightness.value.is_lit());
         let sizeless = lights()
             .find(|light| matches!(light.kind, LightKind::Point { .. } | LightKind::Directional { .. }));
         if let Some(light) = sizeless {
             let object = self.things.iter().find(|thing| thing.stuff.is_specular)?.object.span;
-            return Some(CheckError::CausticsInvisible { light: light.span, object, method });
+            return Some(SpaceError::CausticsInvisible { light: light.span, object, method });
         }
         lights().find_map(|light| self.found_by_luck(light, method))
     }
 
-    fn found_by_luck(&self, light: &Light, method: Span) -> Option<CheckError> {
+    fn found_by_luck(&self, light: &Light, method: Span) -> Option<SpaceError> {
         let LightKind::Sphere { center, radius } = light.kind else { return None };
         let specular = self.things.iter().filter(|thing| thing.stuff.is_specular);
         // From where the light looks largest it is still found too seldom.
@@ -41,7 +41,7 @@ impl Survey<'_> {
         let share = (radius.value / (2.0 * distance)).powi(2);
         let paths = (1.0 / share).round() as u64;
         let (light, object) = (light.span, thing.object.span);
-        (share < SELDOM).then_some(CheckError::CausticsByLuck { paths, light, object, method })
+        (share < SELDOM).then_some(SpaceError::CausticsByLuck { paths, light, object, method })
     }
 }
 

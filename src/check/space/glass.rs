@@ -4,7 +4,7 @@ use super::region::{Extent, Region};
 use super::solid::{Form, Solid};
 use super::stuff::Glass;
 use super::surface::Surface;
-use super::{CheckError, Meshes, OwnMaterial, Survey, Thing, corners, plane_of};
+use super::{Meshes, OwnMaterial, SpaceError, Survey, Thing, corners, plane_of};
 use crate::ir::ShapeKind;
 use crate::math::{DMat3, DVec2, DVec3};
 use crate::source::Span;
@@ -26,7 +26,7 @@ struct Clear<'a> {
 
 impl Survey<'_> {
     /// Glass around a camera, and glasses that get into each other's way.
-    pub(super) fn glass(&self) -> Vec<CheckError> {
+    pub(super) fn glass(&self) -> Vec<SpaceError> {
         let clear: Vec<Clear> = self.things.iter().filter_map(Clear::of).collect();
         let mut doubts = self.cameras_in_glass(&clear);
         let mut by_start: Vec<usize> = (0..clear.len()).collect();
@@ -52,7 +52,7 @@ impl Survey<'_> {
         doubts
     }
 
-    fn cameras_in_glass(&self, clear: &[Clear<'_>]) -> Vec<CheckError> {
+    fn cameras_in_glass(&self, clear: &[Clear<'_>]) -> Vec<SpaceError> {
         let cameras = self.scene.cameras.iter().zip(&self.eyes);
         let inside = |eye: &Region| {
             let solid = clear.iter().find(|glass| glass.solid.holds(eye) == Some(true));
@@ -61,13 +61,13 @@ impl Survey<'_> {
         cameras
             .filter_map(|(camera, eye)| {
                 let glass = inside(eye)?.object.span;
-                Some(CheckError::CameraInGlass { camera: camera.position.span, glass })
+                Some(SpaceError::CameraInGlass { camera: camera.position.span, glass })
             })
             .collect()
     }
 
     /// Meshes of glass whose surface leaves open what is inside.
-    pub(super) fn open_glass(&self, meshes: &dyn Meshes) -> Vec<CheckError> {
+    pub(super) fn open_glass(&self, meshes: &dyn Meshes) -> Vec<SpaceError> {
         let mut seen = FxHashSet::default();
         let doubts = self.things.iter().filter_map(|thing| {
             let ShapeKind::Mesh { file, .. } = &thing.kind else { return None };
@@ -100,7 +100,7 @@ fn is_below(thing: &Thing<'_>, eye: &Region) -> bool {
 }
 
 /// What is wrong with a surface around glass.
-fn surface_doubt(surface: &Surface, name: &str, used: Span) -> Option<CheckError> {
+fn surface_doubt(surface: &Surface, name: &str, used: Span) -> Option<SpaceError> {
     let name = name.to_owned();
     let seams = surface.seams();
     if surface.triangle_count() == 0 {
@@ -108,30 +108,32 @@ fn surface_doubt(surface: &Surface, name: &str, used: Span) -> Option<CheckError
     } else if seams.open > 0 {
         let edges =
             if seams.open == 1 { "1 open edge".to_owned() } else { format!("{} open edges", seams.open) };
-        Some(CheckError::OpenGlass { name, edges, used })
+        Some(SpaceError::OpenGlass { name, edges, used })
     } else if seams.mixed > 0 {
         let said =
             format!("at {} of its edges two triangles disagree about which side is outside", seams.mixed);
-        Some(CheckError::InsideOutGlass { name, said, used })
+        Some(SpaceError::InsideOutGlass { name, said, used })
     } else if surface.volume() < 0.0 {
         let said = "its triangles face inwards".to_owned();
-        Some(CheckError::InsideOutGlass { name, said, used })
+        Some(SpaceError::InsideOutGlass { name, said, used })
     } else {
         None
     }
 }
 
 /// What is wrong with two glasses beside each other.
-fn pair(a: &Clear<'_>, b: &Clear<'_>) -> Option<CheckError> {
+fn pair(a: &Clear<'_>, b: &Clear<'_>) -> Option<SpaceError> {
     if !a.solid.extent.touches(&b.solid.extent.grown(ROUNDING)) {
         return None;
     }
     let (first, second) = (a.thing.object.span, b.thing.object.span);
     if coincide(a, b) {
-        return Some(CheckError::CoincidentGlass { second, first });
+        return Some(SpaceError::CoincidentGlass { second, first });
     }
-    // Where alike glasses overlap they melt into one.
-    (a.glass != b.glass && overlap(a.solid, b.solid)).then_some(CheckError::GlassOverlap { second, first })
+    // Where alike glasses overlap they melt into one; of others, the scene may say which fills the space.
+    let is_said = a.glass.priority != b.glass.priority;
+    (a.glass != b.glass && !is_said && overlap(a.solid, b.solid))
+        .then_some(SpaceError::GlassOverlap { second, first })
 }
 
 /// Whether two solids surely overlap without one being inside the other.

@@ -5,6 +5,7 @@
 
 mod aim;
 mod caustics;
+mod error;
 mod glass;
 mod region;
 mod room;
@@ -13,12 +14,12 @@ mod stuff;
 mod surface;
 mod view;
 
-use super::error::CheckError;
 use super::{Check, Checked};
 use crate::diag::Problems;
 use crate::ir::{Handle, LightKind, Method, Object, Scene, Shape, ShapeKind};
 use crate::math::{DAffine3, DVec3, Vec3};
 use crate::source::Span;
+use error::SpaceError;
 use region::{Extent, Region};
 use rustc_hash::FxHashMap;
 use solid::Solid;
@@ -78,13 +79,24 @@ pub(super) fn places_meshes(scene: &Scene) -> bool {
     scene.objects.iter().any(|object| matches!(scene.shapes[object.shape].kind, ShapeKind::Mesh { .. }))
 }
 
+/// Whether some object is a mesh in its own materials, which may shine.
+pub(super) fn may_bring_light(scene: &Scene) -> bool {
+    let is_unpainted = |object: &Object| {
+        let shape = &scene.shapes[object.shape];
+        matches!(shape.kind, ShapeKind::Mesh { .. }) && object.material.or(shape.material).is_none()
+    };
+    scene.objects.iter().any(is_unpainted)
+}
+
 impl Check<'_> {
     /// Notes what is doubtful about the places of things.
     pub(super) fn survey(&mut self, meshes: &dyn Meshes) {
         if self.scene.objects.len() > MOST_OBJECTS {
             return;
         }
-        self.any_light(meshes);
+        if may_bring_light(self.scene) {
+            self.any_light(meshes);
+        }
         let mut survey = Survey::of(self.scene, meshes);
         let is_classic = self.scene.render.method.is_some_and(|method| method.value == Method::Classic);
         let mut doubts = vec![survey.glass(), survey.open_glass(meshes), survey.views()];
@@ -137,6 +149,13 @@ enum Reach {
     Far(DVec3),
     /// From infinitely far, all around.
     Around,
+}
+
+impl Reach {
+    /// The box around what is not infinitely far.
+    fn extent(&self) -> Option<Extent> {
+        if let Self::Here(region) = self { Some(region.extent()) } else { None }
+    }
 }
 
 impl<'a> Survey<'a> {

@@ -112,9 +112,18 @@ impl Region {
 
     /// The smallest box that holds it.
     pub(super) fn extent(&self) -> Extent {
-        let along = |axis: DVec3| (-self.support(-axis), self.support(axis));
-        let [x, y, z] = DVec3::AXES.map(along);
-        Extent { min: DVec3::new(x.0, y.0, z.0), max: DVec3::new(x.1, y.1, z.1) }
+        match self {
+            Self::Hull(points) => {
+                let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+                let (min, max) = points.iter().fold(empty, |(min, max), &p| (min.min(p), max.max(p)));
+                Extent { min, max }
+            }
+            Self::Round { center, axes } => {
+                let rows = axes.transpose();
+                let reach = DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length());
+                Extent { min: *center - reach, max: *center + reach }
+            }
+        }
     }
 
     /// A ball that holds it: the smallest for balls, a good one for the rest.
@@ -208,6 +217,21 @@ mod tests {
         let (center, radius) = turned.ball();
         assert!((radius - 2.0).abs() < 1e-12 && (center.y - 2.0).abs() < 1e-12);
         assert!((turned.support(DVec3::Y) - 4.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_box_around_a_region_reaches_as_far_as_its_points() {
+        let turn = DAffine3::from_rotation_z(0.4) * DAffine3::from_scale(DVec3::new(1.0, 2.0, 3.0));
+        let cube = Extent { min: DVec3::ZERO, max: DVec3::ONE }.hull();
+        for region in [Region::ball_at(DVec3::ONE, 2.0), cube].map(|region| region.moved(&turn)) {
+            let Extent { min, max } = region.extent();
+            for (axis, (least, most)) in
+                DVec3::AXES.into_iter().zip(min.to_array().into_iter().zip(max.to_array()))
+            {
+                assert!((region.support(axis) - most).abs() < 1e-12);
+                assert!((region.support(-axis) + least).abs() < 1e-12);
+            }
+        }
     }
 
     #[test]

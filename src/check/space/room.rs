@@ -6,7 +6,7 @@
 use super::region::{Extent, Region};
 use super::solid::Solid;
 use super::surface::Surface;
-use super::{CheckError, Reach, Survey, Thing, all_of_them, plane_of};
+use super::{Reach, SpaceError, Survey, Thing, all_of_them, plane_of};
 use crate::ir::{Focus, Lens, ShapeKind};
 use crate::math::DVec3;
 use crate::source::Span;
@@ -43,8 +43,16 @@ enum WallKind {
 impl Wall {
     /// Whether all that light comes from is inside, or all of it outside.
     fn holds(&self, reach: &Reach) -> Option<bool> {
+        self.holds_within(reach, reach.extent().as_ref())
+    }
+
+    /// The same for whoever asks often, and knows the box around it.
+    fn holds_within(&self, reach: &Reach, extent: Option<&Extent>) -> Option<bool> {
         match (&self.kind, reach) {
-            (WallKind::Solid(solid), Reach::Here(region)) => solid.holds(region),
+            (WallKind::Solid(solid), Reach::Here(region)) => match extent {
+                Some(extent) => solid.holds_within(region, extent),
+                None => solid.holds(region),
+            },
             (WallKind::Solid(_), Reach::Far(_) | Reach::Around) => Some(false),
             (WallKind::Plane { normal, offset }, Reach::Here(region)) => {
                 let (least, most) = (-region.support(-*normal), region.support(*normal));
@@ -82,7 +90,7 @@ struct Hidden<'a> {
 
 impl Survey<'_> {
     /// What opaque walls hide.
-    pub(super) fn rooms(&self) -> Vec<CheckError> {
+    pub(super) fn rooms(&self) -> Vec<SpaceError> {
         let walls = self.walls();
         // Walls that have all cameras on one side.
         let sides: Vec<Hidden> = walls
@@ -109,7 +117,7 @@ impl Survey<'_> {
 
     /// The one report where all light is hidden from the cameras by one wall. Solids around all the light are lights sealed
     /// up, not a dark camera.
-    fn dark(&self, sides: &[Hidden<'_>], lamps: &[Option<Hidden<'_>>]) -> Option<CheckError> {
+    fn dark(&self, sides: &[Hidden<'_>], lamps: &[Option<Hidden<'_>>]) -> Option<SpaceError> {
         let all_hidden = |side: &&Hidden| {
             let is_around = matches!(side.wall.kind, WallKind::Plane { .. }) || side.camera_inside;
             is_around
@@ -130,7 +138,7 @@ impl Survey<'_> {
                 "move the camera out of it, or put a light into it",
             ),
         };
-        Some(CheckError::CameraSealed { said, camera, object: wall.span, help })
+        Some(SpaceError::CameraSealed { said, camera, object: wall.span, help })
     }
 
     /// The environment is hidden where planes shut the cameras in on all sides.
@@ -162,8 +170,7 @@ impl Survey<'_> {
             let is_shown = thing.stuff.shines || thing.object.names.iter().any(|name| targets.contains(name));
             let region = thing.region.clone().filter(|_| !is_shown);
             let others = sides.iter().filter(|side| !side.wall.owners.contains(&index));
-            let others: Vec<Hidden> = others.copied().collect();
-            (thing.object.span, region.and_then(|region| hider(&others, &Reach::Here(region))))
+            (thing.object.span, region.and_then(|region| hider(others, &Reach::Here(region))))
         };
         self.things.iter().enumerate().map(hidden).collect()
     }
@@ -226,33 +233,35 @@ impl Survey<'_> {
 }
 
 impl Hidden<'_> {
-    fn light(&self, light: Span) -> CheckError {
+    fn light(&self, light: Span) -> SpaceError {
         let (place, noun) = self.wall.place_of_hidden(self.camera_inside);
         let wall = self.wall.span;
         match place {
-            "inside of" => CheckError::LightSealed { noun, light, object: wall },
-            _ => CheckError::LightHidden { place, noun, light, wall },
+            "inside of" => SpaceError::LightSealed { noun, light, object: wall },
+            _ => SpaceError::LightHidden { place, noun, light, wall },
         }
     }
 
-    fn objects(&self, objects: &[Span]) -> CheckError {
+    fn objects(&self, objects: &[Span]) -> SpaceError {
         let (place, noun) = self.wall.place_of_hidden(self.camera_inside);
         let others = match objects.len() - 1 {
             0 => String::new(),
             1 => ", nor of one more".to_owned(),
             more => format!(", nor of {more} more"),
         };
-        CheckError::ObjectHidden { others, place, noun, object: objects[0], wall: self.wall.span }
+        SpaceError::ObjectHidden { others, place, noun, object: objects[0], wall: self.wall.span }
     }
 }
 
 /// The first wall between a place and the cameras.
-fn hider<'w>(sides: &[Hidden<'w>], reach: &Reach) -> Option<Hidden<'w>> {
-    sides.iter().find(|side| side.wall.holds(reach) == Some(!side.camera_inside)).copied()
+fn hider<'s, 'w: 's>(sides: impl IntoIterator<Item = &'s Hidden<'w>>, reach: &Reach) -> Option<Hidden<'w>> {
+    let extent = reach.extent();
+    let bars = |side: &&Hidden| side.wall.holds_within(reach, extent.as_ref()) == Some(!side.camera_inside);
+    sides.into_iter().find(bars).copied()
 }
 
 /// One report for all that one wall hides: it is the wall that may be in the wrong place.
-fn by_wall(hidden: Vec<(Span, Hidden<'_>)>) -> Vec<CheckError> {
+fn by_wall(hidden: Vec<(Span, Hidden<'_>)>) -> Vec<SpaceError> {
     let mut walls: Vec<(Hidden, Vec<Span>)> = Vec::new();
     for (object, by) in hidden {
         match walls.iter_mut().find(|(known, _)| std::ptr::eq(known.wall, by.wall)) {

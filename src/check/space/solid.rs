@@ -111,7 +111,12 @@ impl Solid {
 
     /// Whether all of `region` is inside, or all of it outside; `None` where it is neither, or that is not certain.
     pub(super) fn holds(&self, region: &Region) -> Option<bool> {
-        if !self.extent.touches(&region.extent()) {
+        self.holds_within(region, &region.extent())
+    }
+
+    /// The same for whoever asks often about one region, and knows the box around it.
+    pub(super) fn holds_within(&self, region: &Region, extent: &Extent) -> Option<bool> {
+        if !self.extent.touches(extent) {
             return Some(false);
         }
         let own = region.moved(&self.own_from_world);

@@ -1,8 +1,9 @@
 //! Cameras: that something is before them, and larger than a pixel.
 
+use super::super::error::CheckError;
 use super::region::{Extent, Region};
 use super::stuff::Stuff;
-use super::{CheckError, Reach, Survey, Thing};
+use super::{Reach, SpaceError, Survey, Thing};
 use crate::ir::camera::Fov;
 use crate::ir::{Camera, Focus, Lens};
 use crate::math::DVec3;
@@ -14,13 +15,13 @@ const WIDER: f64 = 1.05;
 
 impl Survey<'_> {
     /// Cameras that see nothing of the scene, or only a dot.
-    pub(super) fn views(&self) -> Vec<CheckError> {
+    pub(super) fn views(&self) -> Vec<SpaceError> {
         let of_camera = |camera: &Camera| self.focus_behind(camera).or_else(|| self.view(camera));
         self.scene.cameras.iter().filter_map(of_camera).collect()
     }
 
     /// A lens focused on something that is all behind the camera.
-    fn focus_behind(&self, camera: &Camera) -> Option<CheckError> {
+    fn focus_behind(&self, camera: &Camera) -> Option<SpaceError> {
         let Lens::Thin { focus: Some(Spanned { value: Focus::On(id, _), span }), .. } = &camera.lens else {
             return None;
         };
@@ -30,11 +31,11 @@ impl Survey<'_> {
         let is_behind =
             |thing: &Thing| thing.region.as_ref().is_some_and(|r| r.support(forward) <= forward.dot(eye));
         let position = camera.position.span;
-        named.all(is_behind).then_some(CheckError::FocusBehind { focus: *span, position })
+        named.all(is_behind).then(|| CheckError::FocusBehind { focus: *span, position }.into())
     }
 
     /// Paths that end before they have been through glass, or off a mirror, and on to a light.
-    pub(super) fn short_paths(&self) -> Vec<CheckError> {
+    pub(super) fn short_paths(&self) -> Vec<SpaceError> {
         let needed = |thing: &Thing| match thing.stuff {
             Stuff { clear: Some(_), .. } => {
                 (4, "end inside of glass: in, out, on to a surface, to a light are 4")
@@ -49,13 +50,13 @@ impl Survey<'_> {
             self.things.iter().map(|thing| (needed(thing), thing.object.span)).max_by_key(|(n, _)| n.0);
         match (self.scene.render.depth, longest) {
             (Some(depth), Some(((wanted, end), object))) if depth.value < wanted => {
-                vec![CheckError::ShortPaths { depth: depth.value, wanted, end, used: depth.span, object }]
+                vec![SpaceError::ShortPaths { depth: depth.value, wanted, end, used: depth.span, object }]
             }
             _ => Vec::new(),
         }
     }
 
-    fn view(&self, camera: &Camera) -> Option<CheckError> {
+    fn view(&self, camera: &Camera) -> Option<SpaceError> {
         let view = View::of(camera)?;
         // Endless planes, and light all around, are nearly everywhere in view.
         let bounded: Option<Vec<&Region>> = self.things.iter().map(|thing| thing.region.as_ref()).collect();
@@ -68,13 +69,13 @@ impl Survey<'_> {
             return None;
         }
         if all.iter().all(|region| view.misses(region)) {
-            return Some(CheckError::NothingInView {
+            return Some(SpaceError::NothingInView {
                 view: camera.direction.span,
                 position: camera.position.span,
             });
         }
         let extent = all.iter().map(|region| region.extent()).reduce(Extent::union)?;
-        view.is_dot(&extent).then_some(CheckError::TooSmallToSee { position: camera.position.span })
+        view.is_dot(&extent).then_some(SpaceError::TooSmallToSee { position: camera.position.span })
     }
 }
 
@@ -94,8 +95,7 @@ impl View {
         let forward = camera.direction.value.try_normalize()?;
         let right = forward.cross(camera.up.value).try_normalize()?;
         let up = right.cross(forward);
-        let (width, height) = camera.film.size.value;
-        let aspect = f64::from(width) / f64::from(height);
+        let (width, aspect) = (camera.film.size.value.0, camera.film.aspect());
         let tan_x = tan_half_fov_x(camera, aspect);
         let (x, y) = (WIDER * tan_x, WIDER * tan_x / aspect);
         let sides = match is_point(camera) {

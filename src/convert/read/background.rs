@@ -8,7 +8,7 @@ use crate::convert::words::BACKGROUND;
 use crate::math::DVec3;
 
 /// Pictures that the renderer can read.
-const READABLE: &[&str] = &["png", "jpg", "jpeg", "hdr", "exr", "ppm"];
+const READABLE: &[&str] = &["png", "jpg", "jpeg", "hdr", "exr", "ppm", "pgm", "pbm", "pnm", "bmp", "tga"];
 
 /// Whether a picture's ending is one that the renderer can read.
 pub(super) fn is_readable(path: &str) -> bool {
@@ -104,7 +104,7 @@ impl Reader<'_> {
             self.log.not_convertible(
                 "this picture",
                 &field.span,
-                "the renderer reads PNG, JPEG, PPM, HDR and EXR; convert it and write `radiance: image(..)`",
+                "the renderer reads PNG, JPEG, BMP, TGA, PPM, HDR and EXR; convert it and write `radiance: image(..)`",
             );
             return None;
         }

@@ -12,6 +12,9 @@ use crate::math::float::tan64;
 /// How far the length of `direction x up` may be from 1 before it counts as leaning: what single precision leaves of 1.
 const LEAN_TOLERANCE: f64 = 1e-6;
 
+/// How far a pixel may be from square before that counts: angles are written with few digits.
+const SQUARE_TOLERANCE: f64 = 1e-3;
+
 /// How many times its own size an orthographic camera's stand-in is away: far enough to hide the perspective, near
 /// enough to keep the digits of single precision.
 const FAR_AWAY: f64 = 1000.0;
@@ -43,6 +46,7 @@ impl Reader<'_> {
         let is_orthographic = name.contains("Orthographic") || (fields.has("size") && !fields.has("angle"));
         let side = if is_orthographic { self.positive(fields, "size", "how much it sees") } else { None };
         let angle = if is_orthographic { None } else { self.angle(fields) };
+        let across = self.log.take(fields, "angle across");
         let size = self.picture_size(fields);
         let lens = self.lens(name, fields, center, direction);
         let (center, direction, (up, up_span)) = (center?, direction?, up?);
@@ -52,6 +56,7 @@ impl Reader<'_> {
             up,
             angle: 45.0,
             is_across: false,
+            pixel_aspect: 1.0,
             size,
             lens,
             notes: Vec::new(),
@@ -62,6 +67,7 @@ impl Reader<'_> {
             Some(side) => self.step_back(&mut camera, side, &fields.head),
             None => {
                 self.field_of_view(&mut camera, angle?)?;
+                self.angle_across(&mut camera, across.as_ref());
                 self.straighten(&mut camera, &up_span);
             }
         }
@@ -91,15 +97,30 @@ impl Reader<'_> {
         Some((field.vector(), field.span))
     }
 
-    /// `angle`, or its vertical half in a dialect that has one for each axis.
+    /// `angle`, or the vertical one of two.
     fn angle<'t>(&mut self, fields: &mut Fields<'t>) -> Option<Field<'t>> {
-        if fields.has("angle") || !fields.has("angle upwards") {
-            return self.log.need(fields, "angle");
+        match fields.has("angle upwards") && !fields.has("angle") {
+            true => self.log.take(fields, "angle upwards"),
+            false => self.log.need(fields, "angle"),
         }
-        if let Some(across) = self.log.take(fields, "angle across") {
-            self.log.approximated(&across.span, "it follows from `fov` and the picture's shape");
+    }
+
+    /// An angle for the width beside one for the height: together with the picture's sides they make the shape of a
+    /// pixel.
+    fn angle_across(&mut self, camera: &mut Camera, across: Option<&Field<'_>>) {
+        let Some(field) = across else { return };
+        let degrees = field.number(0);
+        if !(0.0 < degrees && degrees < 180.0) {
+            self.log.dropped(&field.span, "no angle of view");
+            let what = format!("`{}` is {degrees} degrees", field.key);
+            return self.log.bad_value(what, &field.span, "a field of view lies between 0 and 180 degrees");
         }
-        self.log.take(fields, "angle upwards")
+        self.log.mapped(&field.span, "`pixel_aspect`, together with the other angle");
+        let tan_half = |degrees: f64| tan64((degrees / 2.0).to_radians());
+        let (width, height) = camera.size.unwrap_or((1, 1));
+        let aspect = tan_half(degrees) / tan_half(camera.angle) * f64::from(height) / f64::from(width);
+        // Angles that were worked out from the sides are square but for their rounding.
+        camera.pixel_aspect = if (aspect - 1.0).abs() < SQUARE_TOLERANCE { 1.0 } else { aspect };
     }
 
     fn field_of_view(&mut self, camera: &mut Camera, angle: Field<'_>) -> Option<()> {
@@ -121,9 +142,12 @@ impl Reader<'_> {
         }
         let both = self.options.angle == Some(Angle::Both) || self.dialect.is_mit();
         if !is_square && both {
-            self.log
-                .approximated(&angle.span, "`fov`, vertical; in the original it is the horizontal one, too");
-            camera.angle_notes.push("The original stretches this angle over the width as well.".into());
+            let (width, height) = camera.size.unwrap_or((1, 1));
+            self.log.mapped(
+                &angle.span,
+                "`fov`, which is vertical, and `pixel_aspect`, for it spans the width, too",
+            );
+            camera.pixel_aspect = f64::from(height) / f64::from(width);
         }
         Some(())
     }

@@ -1,149 +1,16 @@
 //! Depth of field: a dozen programs, nearly as many pairs of keys, and more meanings than pairs.
 
 use super::Reader;
+use super::lens_rules::{DISC_OF_SQUARE, DISTANCES, KEYS, OPENINGS, RULES, Rule, rule};
 use crate::convert::fields::Fields;
 use crate::convert::model::Lens;
 use crate::convert::parse::Span;
 use crate::math::DVec3;
-use crate::math::float::tan64;
 
-/// A pair of keys that means a focus distance and the opening of a lens.
-struct Rule {
-    /// A part of the camera's name, for cameras that measure in their own way.
-    camera: &'static str,
-    focus: &'static str,
-    opening: &'static str,
-    /// Whether the opening stands before the distance; one program that writes it so means another size.
-    opening_first: Option<bool>,
-    /// The distance in focus, from what is written and the distance of the camera from the origin.
-    distance: fn(f64, f64) -> f64,
-    /// The radius of a round lens that blurs as much, from opening and focus distance.
-    radius: fn(f64, f64) -> f64,
-    note: &'static str,
+/// The first of these keys that is there.
+fn first_of(keys: &[&'static str], fields: &Fields<'_>) -> Option<&'static str> {
+    keys.iter().copied().find(|key| fields.has(key))
 }
-
-const AS_WRITTEN: fn(f64, f64) -> f64 = |distance, _| distance;
-
-/// A square of half side a blurs like a disc of its area, of radius 2a / sqrt(pi).
-const DISC_OF_SQUARE: f64 = std::f64::consts::FRAC_2_SQRT_PI;
-
-/// A rule for cameras of any name and keys in any order.
-const fn rule(
-    focus: &'static str,
-    opening: &'static str,
-    radius: fn(f64, f64) -> f64,
-    note: &'static str,
-) -> Rule {
-    Rule { camera: "", focus, opening, opening_first: None, distance: AS_WRITTEN, radius, note }
-}
-
-/// What the programs of the family mean by their pairs of keys; the first that fits counts. None of the distances is a
-/// focal length.
-const RULES: &[Rule] = &[
-    Rule {
-        camera: "DepthCamera",
-        distance: |written, _| written + 1.0,
-        ..rule(
-            "focalLength",
-            "aperture",
-            |width, _| 0.5 * width,
-            "a round lens of this diameter, evenly open; the original's is denser at the centre, and focused 1 \
-             further than it says",
-        )
-    },
-    rule(
-        "focalLength",
-        "aperture",
-        |half_side, _| DISC_OF_SQUARE * half_side,
-        "a round lens of the area of the original's square one",
-    ),
-    Rule {
-        opening_first: Some(true),
-        ..rule(
-            "focus",
-            "aperture",
-            |width, _| 0.5 * width,
-            "a round lens of this diameter; the original's is open at its rim only",
-        )
-    },
-    rule(
-        "focus",
-        "aperture",
-        |half_side, _| DISC_OF_SQUARE * half_side,
-        "a round lens of the area of the original's square one",
-    ),
-    rule(
-        "focal_length",
-        "aperture_size",
-        |side, _| 0.5 * DISC_OF_SQUARE * side,
-        "a round lens for the original's cube of this side",
-    ),
-    rule(
-        "focusDistance",
-        "aperture",
-        |width, _| 0.5 * width,
-        "a round lens of this diameter, as in the original",
-    ),
-    rule(
-        "focusDist",
-        "defocusAngle",
-        |degrees, focus| focus * tan64((degrees / 2.0).to_radians()),
-        "a round lens; the original measures the distance along each ray",
-    ),
-    rule("focusDist", "lenRadius", |radius, _| radius, "a round lens of this radius"),
-    rule(
-        "focus_distance",
-        "lens_radius",
-        |radius, _| radius,
-        "a round lens, evenly open; the original's is a projected ball",
-    ),
-    rule("focal", "aperture", |radius, _| radius, "a round lens of this radius; programs differ"),
-    Rule {
-        distance: |_, from_origin| from_origin,
-        ..rule(
-            "distance",
-            "aperture",
-            |hundredths, _| 0.5 * DISC_OF_SQUARE * hundredths / 100.0,
-            "a round lens of the area of the original's square one, whose side is in hundredths; the original is \
-             focused at the world's origin, whatever its `distance` says",
-        )
-    },
-    rule(
-        "distance",
-        "radius",
-        |radius, _| radius,
-        "a round lens, evenly open; the original's is denser at the centre",
-    ),
-    rule(
-        "dist",
-        "radius",
-        |radius, _| radius,
-        "a round lens, evenly open; the original's is denser at the centre",
-    ),
-    rule("focus", "field", |radius, _| radius, "a round lens, evenly open; the original's is a ball"),
-];
-
-/// All keys of lenses.
-const KEYS: &[&str] = &[
-    "focal",
-    "focalLength",
-    "focal_length",
-    "focus",
-    "focusDist",
-    "focusDistance",
-    "focus_distance",
-    "focusPoint",
-    "distance",
-    "dist",
-    "aperture",
-    "aperture_size",
-    "radius",
-    "lens_radius",
-    "lenRadius",
-    "field",
-    "defocusAngle",
-    "isDOF",
-];
 
 /// The radius of the lens of the program that focuses at a point.
 const POINT_LENS_RADIUS: f64 = 0.3;
@@ -162,7 +29,9 @@ impl Reader<'_> {
             true => None,
             false => match self.lens_at_point(fields, center, direction.unwrap_or(DVec3::NEG_Z)) {
                 Some(lens) => Some(lens),
-                None => self.lens_by_rule(camera, fields, center),
+                None => {
+                    self.lens_by_rule(camera, fields, center).or_else(|| self.lens_of_opening(fields, center))
+                }
             },
         };
         self.leave_rest(fields);
@@ -218,7 +87,10 @@ impl Reader<'_> {
             let in_order = rule.opening_first.is_none_or(|first| first == (opening < focus));
             in_order && camera.contains(rule.camera)
         };
-        let rule = RULES.iter().find(fits)?;
+        let rule = match RULES.iter().find(fits) {
+            Some(rule) => *rule,
+            None => self.unlisted_pair(fields)?,
+        };
         if camera == "LensCamera" && ["distance", "dist"].contains(&rule.focus) {
             self.log.differs(
                 "`LensCamera` blurs the finished picture, it has no lens",
@@ -245,6 +117,35 @@ impl Reader<'_> {
         }
         let is_ahead = self.check_distance(distance, &focus.span);
         is_ahead.then(|| Lens { radius, focus: distance, note: rule.note.into() })
+    }
+
+    /// A pair of keys that no known program has: a distance and a radius, if the radius is that of a lens at all.
+    fn unlisted_pair(&mut self, fields: &Fields<'_>) -> Option<Rule> {
+        let (focus, opening) = (first_of(DISTANCES, fields)?, first_of(OPENINGS, fields)?);
+        let value = |role| fields.peek(role).filter(|field| field.sound).map(|field| field.number(0));
+        let (distance, radius) = (value(focus)?, value(opening)?);
+        if radius <= 0.0 || radius >= distance {
+            return None;
+        }
+        let at = fields.peek(opening)?.span.clone();
+        let help = "they were taken as the distance in focus and the radius of the lens";
+        self.log.differs("no known program has this pair of keys for a lens", &at, help);
+        Some(rule(focus, opening, |radius, _| radius, "a round lens of this radius, by the look of the keys"))
+    }
+
+    /// An opening without a distance, in hundredths, focused at the origin of the world: as one program has it.
+    fn lens_of_opening(&mut self, fields: &mut Fields<'_>, center: DVec3) -> Option<Lens> {
+        let is_alone = first_of(DISTANCES, fields).is_none();
+        let opens = fields.peek("aperture").is_some_and(|field| field.sound && field.number(0) > 0.0);
+        if !is_alone || !opens || center == DVec3::ZERO {
+            return None;
+        }
+        let aperture = self.log.take(fields, "aperture")?;
+        let note = "a round lens of the area of the original's square one, whose side is in hundredths; the original \
+                    is focused at the world's origin";
+        self.log.approximated(&aperture.span, note);
+        let radius = 0.5 * DISC_OF_SQUARE * aperture.number(0) / 100.0;
+        Some(Lens { radius, focus: center.length(), note: note.into() })
     }
 
     fn check_distance(&mut self, distance: f64, at: &Span) -> bool {

@@ -1,10 +1,9 @@
 //! `Lights`: what kind each is, by its fields rather than by its name.
 
-use super::quad::axis_of;
 use super::{Dialect, Mistake, Reader};
 use crate::convert::fields::{Fields, Part};
-use crate::convert::model::{Light, Object, Shape};
-use crate::convert::parse::{Block, Span};
+use crate::convert::model::Light;
+use crate::convert::parse::Block;
 use crate::convert::words::{LIGHT, LIGHTS, blocks, normalised};
 use crate::convert::{Falloff, Lights};
 use crate::math::DVec3;
@@ -20,6 +19,7 @@ enum Kind {
     /// A disk square to an axis that is named by a word.
     AxisDisk,
     Rect,
+    Triangle,
     Mesh,
     /// A light with an area of which nothing is said.
     Unshaped,
@@ -37,6 +37,8 @@ impl Kind {
         let has_extent = any(&["size", "area", "length u", "length v"]);
         if has("direction") && name.contains("direct") {
             Self::Directional
+        } else if has("p1") && name.contains("triang") {
+            Self::Triangle
         } else if has("obj_file") && !has_edges {
             Self::Mesh
         } else if any(&["range x", "range y", "range z"]) {
@@ -149,6 +151,7 @@ impl Reader<'_> {
             Kind::Mesh => self.glowing_mesh(fields, color),
             Kind::AxisDisk => self.axis_disk(fields, color),
             Kind::Rect => self.rect_light(fields, color),
+            Kind::Triangle => self.triangle_light(fields, color),
             Kind::Spot => self.spot_light(fields, color),
             Kind::Disk => self.disk_light(fields, color),
             Kind::Sphere => self.sphere_light(fields, color),
@@ -278,51 +281,6 @@ impl Reader<'_> {
         Some(Light::Rect { origin, edge_u, edge_v, radiance, notes: vec![note.into()] })
     }
 
-    /// A disk that glows is a disk made of light.
-    fn disk_light(&mut self, fields: &mut Fields<'_>, radiance: DVec3) -> Option<Light> {
-        self.log.mapped(&fields.head, "a `disk` of `emissive`");
-        let center = self.log.need_vector(fields, "position", "`center`");
-        let radius = self.positive(fields, "radius", "`radius`");
-        let role = if fields.has("direction") { "direction" } else { "normal" };
-        let normal = self.log.need(fields, role)?;
-        self.log.mapped(&normal.span, "`normal`, the way it shines");
-        let normal = self.three(&normal)?;
-        self.glowing_disk(fields, center?, normal, radius?, radiance)
-    }
-
-    fn glowing_disk(
-        &mut self,
-        fields: &Fields<'_>,
-        center: DVec3,
-        normal: DVec3,
-        radius: f64,
-        radiance: DVec3,
-    ) -> Option<Light> {
-        let head = fields.head.clone();
-        if normal == DVec3::ZERO {
-            self.log.bad_value("the normal of this light is the zero vector", &head, "write where it faces");
-            return None;
-        }
-        let object = Object::new(Shape::Disk { center, normal, radius }, head);
-        Some(Light::Glowing { object: Box::new(object), radiance })
-    }
-
-    /// `normal Y- position 3 X 0 Z 1 radius 2`: a disk square to an axis.
-    fn axis_disk(&mut self, fields: &mut Fields<'_>, radiance: DVec3) -> Option<Light> {
-        self.log.mapped(&fields.head, "a `disk` of `emissive`");
-        let radius = self.positive(fields, "radius", "`radius`")?;
-        let normal = self.log.need(fields, "normal")?;
-        let (fixed, sign) = axis_of(normal.text())?;
-        self.log.mapped(&normal.span, "`normal`, the way it shines");
-        let mut center = DVec3::ZERO;
-        center[fixed] = self.log.need_number(fields, "position", "`center`")?;
-        for axis in [(fixed + 1) % 3, (fixed + 2) % 3] {
-            let role = ["range x", "range y", "range z"][axis];
-            center[axis] = self.log.number(fields, role, "`center`").unwrap_or(0.0);
-        }
-        self.glowing_disk(fields, center, DVec3::AXES[fixed] * sign, radius, radiance)
-    }
-
     /// A spotlight has no counterpart yet; a point light is as bright in its cone, and lights the rest as well.
     fn spot_light(&mut self, fields: &mut Fields<'_>, color: DVec3) -> Option<Light> {
         let head = fields.head.clone();
@@ -334,29 +292,6 @@ impl Reader<'_> {
         let falloff = self.falloff(fields);
         let notes = vec!["Stands in for a spotlight; this one shines all around.".into()];
         Some(Light::Point { position, color, falloff, notes })
-    }
-
-    /// `AreaLight { .. TinyObj { FILE } }`, or any other object: it glows.
-    fn glowing_object(
-        &mut self,
-        block: Block<'_>,
-        fields: &mut Fields<'_>,
-        radiance: DVec3,
-    ) -> Option<Light> {
-        self.log.mapped(&fields.head, "an object of `emissive`");
-        self.log.put_aside(fields, &["two_sided"], "materials of light shine to one side");
-        let mut object = self.shape_of_light(block)?;
-        self.bound(&mut object);
-        Some(Light::Glowing { object: Box::new(object), radiance })
-    }
-
-    fn glowing_mesh(&mut self, fields: &mut Fields<'_>, radiance: DVec3) -> Option<Light> {
-        self.log.mapped(&fields.head, "a `mesh` of `emissive`");
-        let file = self.log.take(fields, "obj_file")?;
-        let head: Span = fields.head.clone();
-        let file = self.obj_file(&file)?;
-        let object = Object::new(Shape::Mesh { file, smooth: false }, head);
-        Some(Light::Glowing { object: Box::new(object), radiance })
     }
 }
 

@@ -6,7 +6,9 @@
 mod background;
 mod camera;
 mod facing;
+mod lamp;
 mod lens;
+mod lens_rules;
 mod light;
 mod material;
 mod object;

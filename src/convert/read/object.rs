@@ -3,10 +3,13 @@
 use super::light::is_light;
 use super::{Dialect, Mistake, Reader};
 use crate::convert::fields::{Field, Fields, Part};
-use crate::convert::model::{Look, Object, Shape};
-use crate::convert::parse::{Block, Span};
+use crate::convert::model::{Look, Material, Object, Shape};
+use crate::convert::parse::{Block, Node, Span};
 use crate::convert::words::{GROUP, SHAPE, blocks};
 use crate::math::DVec3;
+
+/// The index of no material, until it is known how many there are.
+pub(super) const NO_MATERIAL: usize = usize::MAX;
 
 impl Reader<'_> {
     /// The objects of a group. `MaterialIndex` changes the reader's state, which outlives the group.
@@ -34,6 +37,9 @@ impl Reader<'_> {
         for part in parts {
             match part {
                 Part::Field(field) if field.role == "MaterialIndex" => self.set_material(&field),
+                Part::Field(field) if field.role == "material file" && field.word.is_some() => {
+                    self.material_of_file(&field);
+                }
                 Part::Field(field) if field.role == "count" => counts.push(field),
                 Part::Field(field) if field.role == "obj_file" && !field.guessed => {
                     found += 1;
@@ -58,14 +64,14 @@ impl Reader<'_> {
     pub(super) fn set_material(&mut self, field: &Field<'_>) {
         if !field.sound {
             self.log.dropped(&field.span, "malformed");
-            self.material_index.get_or_insert(self.materials.len()); // the shapes that follow stay silent
+            self.material_index.get_or_insert(NO_MATERIAL); // the shapes that follow stay silent
             return;
         }
         self.log.mapped(&field.span, "`material` of the objects that follow");
         self.material_index = Some(self.valid_material(field));
     }
 
-    /// The index of a material; the one past the last is that of a placeholder.
+    /// The index of a material, or [`NO_MATERIAL`].
     fn valid_material(&mut self, field: &Field<'_>) -> usize {
         let (index, count) = (field.number(0).trunc() as i64, self.materials.len());
         let at = field.span.clone().into();
@@ -75,7 +81,24 @@ impl Reader<'_> {
             _ => self.log.notes.note(Mistake::IndexOutOfRange { index, count, at }),
         }
         self.log.approximated(&field.span, "a grey placeholder");
-        count
+        NO_MATERIAL
+    }
+
+    /// `MaterialPreset FILE`: a material that is described elsewhere. Each file has one placeholder, to be filled in.
+    fn material_of_file(&mut self, field: &Field<'_>) {
+        if field.guessed {
+            self.log.guess(field.key, field.role, &field.span);
+        }
+        self.log.approximated(&field.span, "a grey placeholder, one for each file");
+        let note = format!("The original takes this material from {}.", field.text());
+        let known =
+            self.materials.iter().position(|it| it.look == Look::Placeholder && it.notes == [note.as_str()]);
+        self.material_index = Some(known.unwrap_or_else(|| {
+            self.note_not_read("a file of materials", &field.span, "a grey placeholder stands in");
+            let material = Material { span: field.span.clone(), look: Look::Placeholder, notes: vec![note] };
+            self.materials.push(material);
+            self.materials.len() - 1
+        }));
     }
 
     /// The oldest dialect has no indices: a `Material { .. }` in a group holds for the objects that follow it.
@@ -105,6 +128,9 @@ impl Reader<'_> {
                 self.log.drop_all(&block.span, "speeds up the original");
                 None
             }
+            Some(blocks::Object::Patch) => self.leave_out(&block, "it is a curved patch over control points"),
+            Some(blocks::Object::Sky) => self.leave_out(&block, "pictures all around are not read"),
+            Some(blocks::Object::Cage) => self.unbent(block),
             Some(blocks::Object::Formula) => {
                 self.leave_out(&block, "its surface is a formula in one program")
             }
@@ -253,6 +279,25 @@ impl Reader<'_> {
             self.log.notes.note(Mistake::NoMaterial { shape: shape.into(), at: at.clone().into() });
         }
         self.material_index
+    }
+
+    /// Objects in a cage that bends them, as they were before.
+    fn unbent(&mut self, mut block: Block<'_>) -> Option<Object> {
+        self.log.not_convertible(
+            format!("the bending by `{}`", block.name()),
+            &block.head,
+            "objects keep their form; what is inside stands as it was before it was bent",
+        );
+        let is_object = |node: &Node<'_>| match node {
+            Node::Block(inner) => blocks::object(inner.name()).is_some(),
+            _ => false,
+        };
+        for node in block.body.iter().filter(|node| !is_object(node)) {
+            self.log.dropped(&node.span(), "the cage of a bending");
+        }
+        block.body.retain(is_object);
+        let head = block.head.clone();
+        Some(Object::new(Shape::Group(self.group(block)), head))
     }
 
     fn leave_out(&mut self, block: &Block<'_>, why: &'static str) -> Option<Object> {

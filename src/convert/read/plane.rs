@@ -18,6 +18,8 @@ impl Reader<'_> {
         let normal = self.log.need(fields, "normal");
         let offset = self.log.need_number(fields, "offset", "offset of the plane");
         let picture = self.laid_picture(fields);
+        let frame = "the frame of a picture, which is laid on by uv coordinates";
+        self.log.put_aside(fields, &["p1", "p2", "p3", "p4", "origin"], frame);
 
         let normal = normal?;
         let direction = self.three(&normal)?;

@@ -74,8 +74,18 @@ impl Reader<'_> {
     fn by_corners(&mut self, fields: &mut Fields<'_>) -> Option<Parallelogram> {
         let [a, b, c] = ["p1", "p2", "p3"].map(|role| self.log.vector(fields, role, "a corner"));
         let d = self.log.vector(fields, "p4", "a corner");
-        let (origin, neighbour) = (a?, b?);
-        let other = c.filter(|_| d.is_none()).or(d)?;
+        let (origin, neighbour, third) = (a?, b?, c?);
+        // Four corners stand in a ring, or row by row; the one opposite the first is not its neighbour.
+        let other = match d {
+            Some(fourth)
+                if (neighbour + third - origin).distance(fourth)
+                    < (neighbour + fourth - origin).distance(third) =>
+            {
+                third
+            }
+            Some(fourth) => fourth,
+            None => third,
+        };
         Some(Parallelogram { origin, edge_u: neighbour - origin, edge_v: other - origin })
     }
 

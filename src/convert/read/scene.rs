@@ -1,11 +1,11 @@
 //! The top level of a file: which scenes it holds, and which block is what.
 
-use super::object::holds_objects;
+use super::object::{NO_MATERIAL, holds_objects};
 use super::{Mistake, Reader};
 use crate::convert::dialect;
 use crate::convert::fields::{Field, Part};
 use crate::convert::log::Log;
-use crate::convert::model::{Object, Scene, Settings};
+use crate::convert::model::{Object, Scene, Settings, Shape};
 use crate::convert::parse::{Block, Node, Span};
 use crate::convert::report::Outcome;
 use crate::convert::words::{GROUP, SETTINGS, blocks};
@@ -97,6 +97,7 @@ impl Reader<'_> {
         lights.append(&mut self.stray_lights);
         let background = self.background(top.background, lights.is_empty());
         self.tell_unused_materials(&objects);
+        settle(&mut objects, self.materials.len());
         Scene {
             is_classic: self.is_classic(),
             detection,
@@ -114,7 +115,8 @@ impl Reader<'_> {
     fn tell_unused_materials(&mut self, objects: &[Object]) {
         let mut used = BTreeSet::new();
         Object::each(objects, &mut |object| used.extend(object.material));
-        for (index, material) in self.materials.iter().enumerate() {
+        for (index, material) in self.materials.iter().enumerate().rev() {
+            // Blends refer to those before them, so whoever uses a material has been seen by now.
             used.extend(material.look.parts().filter(|_| used.contains(&index)).collect::<Vec<_>>());
         }
         let unused: Vec<Span> = (0..)
@@ -244,6 +246,18 @@ impl Reader<'_> {
                     open.extend(parts);
                 }
             }
+        }
+    }
+}
+
+/// Gives the objects of no material the placeholder, which comes after all materials there are.
+fn settle(objects: &mut [Object], placeholder: usize) {
+    for object in objects {
+        if object.material == Some(NO_MATERIAL) {
+            object.material = Some(placeholder);
+        }
+        if let Shape::Group(inner) = &mut object.shape {
+            settle(inner, placeholder);
         }
     }
 }

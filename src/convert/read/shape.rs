@@ -4,13 +4,15 @@ use super::Reader;
 use super::quad::is_flat;
 use crate::convert::dialect::Dialect;
 use crate::convert::fields::{Field, Fields};
-use crate::convert::model::{Asset, Curve, Object, Profile, Shape, Step};
+use crate::convert::model::{Asset, Object, Shape, Step};
 use crate::math::DVec3;
-use crate::math::float::sin_cos64;
-use std::f64::consts::TAU;
 
-/// Corners of the circle that a torus is turned from.
-const TORUS_CORNERS: usize = 64;
+/// What some programs write after the file of a mesh.
+#[derive(Default)]
+struct Written {
+    scale: Option<DVec3>,
+    offset: Option<DVec3>,
+}
 
 impl Reader<'_> {
     /// A ball; one that moves between two centres stands half way.
@@ -104,62 +106,57 @@ impl Reader<'_> {
         Some(Shape::Triangle { corners: [a, b, c] })
     }
 
-    /// A tube along the y axis, from the middle of its foot, without lids.
+    /// A tube without lids, between two points or from a foot upwards.
     pub(super) fn cylinder(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
         let head = fields.head.clone();
-        self.log.approximated(&head, "`revolve`, a tube along the y axis");
-        let radius = self.positive(fields, "radius", "its radius");
-        let foot = self.log.take_any(fields, &["center", "position", "origin"]);
-        let height = self.log.number(fields, "length v", "its height");
-        let end = self.log.vector(fields, "endpoint", "its end");
-        let foot = foot.map_or(DVec3::ZERO, |field| {
-            self.log.mapped(&field.span, "its foot");
+        self.log.mapped(&head, "`cylinder`, without lids");
+        let radius = self.positive(fields, "radius", "`radius`");
+        let mut ends = self.log.take_all(fields, "endpoint");
+        for end in &ends {
+            self.log.mapped(&end.span, "`base` or `top`");
+        }
+        let end = ends.pop().map(|end| end.vector());
+        let foot = self.log.take_any(fields, &["center", "position", "origin"]).or(ends.pop());
+        let base = foot.map_or(DVec3::ZERO, |field| {
+            self.log.mapped(&field.span, "`base`");
             field.vector()
         });
-        let top = height.map(|height| foot.y + height).or(end.map(|end| end.y));
-        let is_upright = foot.x == 0.0 && foot.z == 0.0;
-        let (Some(radius), Some(top), true) = (radius, top.filter(|top| *top != foot.y), is_upright) else {
-            self.log.not_convertible(
-                "this cylinder",
-                &head,
-                "where it ends, or that it stands on the y axis, is not said",
-            );
+        let height = self.log.number(fields, "length v", "how far it reaches");
+        let axis = self.log.vector(fields, "axis", "which way it stands").unwrap_or(DVec3::Y);
+        let top = end.or(height.map(|height| base + axis.normalize_or_zero() * height));
+        let is_long = |top: &DVec3| top.distance(base) > 1e-6 * top.length().max(base.length());
+        let Some(top) = top.filter(is_long) else {
+            self.log.not_convertible("this cylinder", &head, "where it ends is not said");
             return None;
         };
-        let points = vec![(radius, foot.y), (radius, top)];
-        Some(Shape::Revolve { profile: Profile { kind: Curve::Polyline, points } })
+        Some(Shape::Cylinder { base, top, radius: radius? })
     }
 
-    /// A ring around the y axis, of many corners.
+    /// A ring around the y axis.
     pub(super) fn torus(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
         let head = fields.head.clone();
-        self.log.approximated(&head, "`revolve`, with a circle of many corners");
-        let large = self.positive(fields, "large radius", "its radius");
-        let small = self.positive(fields, "small radius", "the radius of its tube");
-        let (large, small) = (large?, small?);
-        if small > large {
+        self.log.mapped(&head, "`torus`");
+        let large = self.positive(fields, "large radius", "`radius`");
+        let small = self.positive(fields, "small radius", "`tube`");
+        let (radius, tube) = (large?, small?);
+        if tube >= radius {
             let help = "write `R` greater than `r`";
-            self.log.bad_value("the tube of this torus is wider than its ring", &head, help);
+            self.log.bad_value("the tube of this torus is as wide as its ring", &head, help);
             return None;
         }
-        let points = (0..=TORUS_CORNERS).map(|i| {
-            let (sin, cos) = sin_cos64(TAU * (i % TORUS_CORNERS) as f64 / TORUS_CORNERS as f64);
-            ((large + small * cos).max(0.0), small * sin)
-        });
-        Some(Shape::Revolve { profile: Profile { kind: Curve::Polyline, points: points.collect() } })
+        Some(Shape::Torus { radius, tube })
     }
 
     /// A mesh and its placement: `v scale + offset`, and in the dialect of arsenal.txt z mirrored by `Y_inverse`.
     pub(super) fn mesh(&mut self, fields: &mut Fields<'_>) -> Option<Object> {
         let head = fields.head.clone();
         self.log.mapped(&head, "`mesh`");
-        let file = self.mesh_file(fields);
-        let scale = self.mesh_scale(fields);
+        let (file, written) = self.mesh_file(fields)?;
+        let scale = self.mesh_scale(fields).or(written.scale).unwrap_or(DVec3::ONE);
         let offset_role = ["offset", "center", "position"].into_iter().find(|role| fields.has(role));
-        let offset =
-            offset_role.and_then(|role| self.log.vector(fields, role, "`translate`")).unwrap_or_default();
-        let mut object =
-            Object::new(Shape::Mesh { file: file?, smooth: self.is_smooth(fields) }, head.clone());
+        let offset = offset_role.and_then(|role| self.log.vector(fields, role, "`translate`"));
+        let offset = offset.or(written.offset).unwrap_or_default();
+        let mut object = Object::new(Shape::Mesh { file, smooth: self.is_smooth(fields) }, head.clone());
         let mut mirror = DVec3::ONE;
         if let Some(flag) = self.log.take(fields, "Y_inverse") {
             self.log.mapped(&flag.span, "a mirrored z axis, which is what it does in spite of its name");
@@ -175,11 +172,12 @@ impl Reader<'_> {
         Some(object)
     }
 
-    /// The file after `obj_file`, or where a program has no key, the one word there is.
-    fn mesh_file(&mut self, fields: &mut Fields<'_>) -> Option<Asset> {
+    /// The file after `obj_file`, or where a program has no key, the one word there is; and what is written after it.
+    fn mesh_file(&mut self, fields: &mut Fields<'_>) -> Option<(Asset, Written)> {
         if fields.has("obj_file") {
             let field = self.log.take(fields, "obj_file")?;
-            return self.obj_file(&field);
+            let file = self.obj_file(&field)?;
+            return Some((file, self.after_mesh_file(&field)));
         }
         let is_path = |field: &&Field<'_>| field.role.is_empty() && field.key.contains('.');
         let keyless =
@@ -188,7 +186,7 @@ impl Reader<'_> {
             Some((key, span)) => {
                 self.log.mapped(&span, "`file`");
                 fields.forget(&key);
-                Some(self.asset_at(&key, &span))
+                Some((self.asset_at(&key, &span), Written::default()))
             }
             None => {
                 self.log.need(fields, "obj_file");
@@ -197,12 +195,31 @@ impl Reader<'_> {
         }
     }
 
-    fn mesh_scale(&mut self, fields: &mut Fields<'_>) -> DVec3 {
+    /// `obj_file FILE s x y z`: a factor and an offset without keys.
+    fn after_mesh_file(&mut self, field: &Field<'_>) -> Written {
+        let numbers: Vec<f64> = field.numbers.iter().map(|number| number.value).collect();
+        let written = match numbers[..] {
+            [] => return Written::default(),
+            [s] => Written { scale: Some(DVec3::splat(s)), offset: None },
+            [x, y, z] => Written { scale: None, offset: Some(DVec3::new(x, y, z)) },
+            [s, x, y, z] => Written { scale: Some(DVec3::splat(s)), offset: Some(DVec3::new(x, y, z)) },
+            _ => {
+                self.log.differs("numbers after the file of a mesh", &field.span, "nothing was made of them");
+                return Written::default();
+            }
+        };
+        self.log.approximated(&field.span, "`file`, and the numbers as a factor and an offset");
+        let help = "they were taken as a factor, an offset, or both in this order";
+        self.log.differs("numbers after the file of a mesh", &field.span, help);
+        written
+    }
+
+    fn mesh_scale(&mut self, fields: &mut Fields<'_>) -> Option<DVec3> {
         if let Some(field) = self.log.take(fields, "scale") {
             self.log.mapped(&field.span, "`scale`");
-            return DVec3::splat(field.number(0));
+            return Some(DVec3::splat(field.number(0)));
         }
-        self.log.vector(fields, "scaling", "`scale`").unwrap_or(DVec3::ONE)
+        self.log.vector(fields, "scaling", "`scale`")
     }
 
     /// Whether normals are interpolated. The course and MIT's edition of 2004 have flat triangles, that of 2016 smooth

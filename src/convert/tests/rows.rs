@@ -36,13 +36,14 @@ fn lenses() {
         ("PerspectiveCamera", "focusPoint True 0 0 2", "0.3".into(), "7"),
         ("PerspectiveCamera", "focal_length 7 aperture_size 2", disc(1.0), "7"),
         ("PerspectiveCamera", "focus 7 field 2", "2".into(), "7"),
+        ("PerspectiveCamera", "aperture 100", disc(0.5), "9"),
+        ("PerspectiveCamera", "len_radius 2 focus 7", "2".into(), "7"),
     ];
     for (camera, lens, radius, focus) in rows {
         let scene = CAMERA.replace("PerspectiveCamera", camera).replace(" }", &format!(" {lens} }}"));
         assert_said(&scene, &format!("lens: thin {{ radius: {radius}, focus: {focus} }}"));
     }
-    for pinhole in ["isDOF 0 lenRadius 2 focusDist 7", "focusPoint False", "focus 7 radius 2", "aperture 0.1"]
-    {
+    for pinhole in ["isDOF 0 lenRadius 2 focusDist 7", "focusPoint False", "focus 7 radius 2", "aperture 0"] {
         let scene = CAMERA.replace(" }", &format!(" {pinhole} }}"));
         assert!(!convert_plainly(&scene).only().contains("lens:"), "{pinhole}");
     }
@@ -123,6 +124,39 @@ fn materials() {
             "UberMaterial { baseColor 0.5 0.5 0.5 metallic 1 roughness 0.25 }",
             "metal { color: 0.5, roughness: 0.5 }",
         ),
+        // Flags, and colours beside shares.
+        (
+            "Material { diffuseColor 0.2 0.2 0.2 specularColor 0.9 0.8 0.7 specular }",
+            "mirror { color: rgb(0.9, 0.8, 0.7) }",
+        ),
+        ("Material { specular specularColor 1 1 1 eta 1.5 }", "glass { ior: 1.5, tint: 1 }"),
+        (
+            "Material { diffuseColor 0.6 0.6 0.6 specularColor 1 1 1 transparent iota 1.2 }",
+            "glass { ior: 1.2, tint: 0.6 }",
+        ),
+        ("Material { diffuse 0 specularColor 1 1 1 specular 1 diffuseColor 0 0 0 }", "mirror { color: 1 }"),
+        (
+            "Material { diffuseColor 0 0 0 diffuse 0 specularColor 1 1 1 specular 0.2 refractColor 1 0.5 0.5 refract 0.8 \
+             refractiveIndex 1.6 }",
+            "mix { a: mirror { color: 1 } b: glass { ior: 1.6, tint: rgb(1, 0.5, 0.5) } amount: 0.8 }",
+        ),
+        (
+            "Material { diffuseColor 1 1 1 reflectiveColor 0.5 0.25 0 reflectance 0.25 transparency 0.25 }",
+            "mirror { color: rgb(0.5, 0.25, 0) }",
+        ),
+        ("Material { diffuseColor 1 0.9 0.8 eta 1.3 }", "glass { ior: 1.3, tint: rgb(1, 0.9, 0.8) }"),
+        (
+            "Material { diffuseColor 1 1 1 roughness 0.5 ks 0.5 kd 0.25 F0 0.8 0.4 0.2 }",
+            "phong { diffuse: 0.25, specular: rgb(0.4, 0.2, 0.1)",
+        ),
+        (
+            "Material { diffuseColor 1 1 1 Fresnel { fbase 0.25 fscale 0.75 power 1 } }",
+            "mix { a: diffuse { color: 1 } b: mirror { color: 1 } amount: 0.5 }",
+        ),
+        (
+            "Material { diffuseColor 1 1 1 refractiveIndex 1.4 Fresnel { fbase 0.04 fscale 0.96 power 5 } }",
+            "glass { ior: 1.4, tint: 1 }",
+        ),
         // Implied by the colours that are there.
         ("Material { lightColor 7 7 7 }", "emissive { radiance: 7 }"),
         ("Material { refractionIndex 1.5 specularColor 1 1 1 }", "glass { ior: 1.5, tint: 1 }"),
@@ -134,7 +168,9 @@ fn materials() {
         ),
         // Pictures.
         ("Material { diffuseColor 1 1 1 texture tex/wood.png }", "missing: skip"),
-        ("Material { diffuseColor 0.3 0.3 0.3 texture tex/wood.bmp }", "diffuse { color: 0.3 }"),
+        ("Material { diffuseColor 0.3 0.3 0.3 texture tex/wood.gif }", "diffuse { color: 0.3 }"),
+        ("Material { diffuseColor 0.3 0.3 0.3 texture tex/wood.bmp }", "\"tex/wood.bmp\""),
+        ("Material { diffuseColor 0.3 0.3 0.3 texture tex/wood.TGA }", "\"tex/wood.TGA\""),
         ("Diffuse { albedoTexture tex/marble.jpg normalMap tex/marble_n.jpg }", "\"tex/marble.jpg\""),
         ("Material { diffuseColor 0.3 0.3 0.3 bump tex/waves.png }", "diffuse { color: 0.3 }"),
     ];
@@ -174,6 +210,19 @@ fn lights() {
             "edge_u: (1, 0, 0)".into(),
         ),
         ("AreaLight { p1 0 5 0 p2 2 5 0 p3 0 5 2 flux 2 }", rect("(0, 5, 0)", "(2, 0, 0)", "(0, 0, 2)")),
+        // Four corners: row by row, and in a ring.
+        (
+            "QuadLight { A 0 5 0 B 2 5 0 C 0 5 2 D 2 5 2 color 2 2 2 }",
+            rect("(0, 5, 0)", "(2, 0, 0)", "(0, 0, 2)"),
+        ),
+        (
+            "QuadLight { p1 0 5 0 p2 2 5 0 p3 2 5 2 p4 0 5 2 color 2 2 2 }",
+            rect("(0, 5, 0)", "(2, 0, 0)", "(0, 0, 2)"),
+        ),
+        (
+            "LightTriangle { vertex0 0 5 0 vertex1 2 5 0 vertex2 0 5 2 color 3 3 3 }",
+            "triangle { a: (0, 5, 0), b: (2, 5, 0), c: (0, 5, 2), material: emissive { radiance: 3 }".into(),
+        ),
         ("AreaLight { position 0 5 0 normal 0 -1 0 area 4 color 2 2 2 }", "light rect".into()),
         (
             "AreaLight { mesh a.obj position 0 5 0 right 1 0 0 up 0 -1 0 size 2 2 color 1 1 1 scale 2 }",
@@ -268,11 +317,22 @@ fn shapes() {
             "disk { center: (0, 0, 0), normal: (0, 1, 0), radius: 2 }",
         ),
         ("Cube { min_p 1 0 0 max_p 0 1 1 }", "box { min: (0, 0, 0), max: (1, 1, 1) }"),
-        ("Torus { R 2 r 0.5 }", "revolve"),
+        ("Torus { R 2 r 0.5 }", "torus { radius: 2, tube: 0.5"),
+        (
+            "Cylinder { center 1 0 0 radius 2 height 3 }",
+            "cylinder { base: (1, 0, 0), top: (1, 3, 0), radius: 2",
+        ),
         ("TinyObj { ./mesh/a.obj }", "file: \"./mesh/a.obj\""),
         (
             "TriangleMesh { scale 2 offset 1 0 0 obj_file a.obj }",
             "transform: scale(2) then translate(1, 0, 0)",
+        ),
+        ("TriangleMesh { obj_file a.obj 2 1 0 0 }", "transform: scale(2) then translate(1, 0, 0)"),
+        ("TriangleMesh { obj_file a.obj 3 }", "transform: scale(3)"),
+        ("FFDCage { geometry TriangleMesh { obj_file a.obj } controls { 0 0 0 } }", "group { mesh {"),
+        (
+            "Cylinder { endpoint 0 -1 0 endpoint 0 1 0 radius 2 }",
+            "cylinder { base: (0, -1, 0), top: (0, 1, 0), radius: 2, caps: false",
         ),
         ("TriangleMesh { smooth obj_file a.obj }", "smooth: true"),
         ("TriangleMesh { obj_file a.obj use_BVH true }", "smooth: false"),

@@ -65,6 +65,12 @@ pub enum Object {
     Grid,
     /// A surface by a formula of one program.
     Formula,
+    /// A curved patch over a net of control points.
+    Patch,
+    /// Objects that are bent with a cage around them.
+    Cage,
+    /// Pictures all around.
+    Sky,
 }
 
 /// The first row with a part of the name.
@@ -105,7 +111,7 @@ pub fn material(name: &str) -> Option<Material> {
         ("light emis lamp", Material::Light),
         ("glass refrac dielec transpar transmi fresnel water", Material::Glass),
         ("mirror reflec perfectspec", Material::Mirror),
-        ("phongmaterial generic", Material::Plain),
+        ("phongmaterial generic", Material::Plain), // before the glossy ones
         (
             "phong gloss plastic cook ward ggx microfacet uber principled disney blinn brdf bsdf pbr",
             Material::Glossy,
@@ -120,9 +126,12 @@ pub fn material(name: &str) -> Option<Material> {
 /// What a block in a `Group` is.
 pub fn object(name: &str) -> Option<Object> {
     let table = [
+        ("ffd lattice cage", Object::Cage),
         ("transform", Object::Transform),
         ("fog medium volume smoke", Object::Medium),
         ("revsurface revol lathe", Object::Revolve),
+        ("patch beziersurface bsplinesurface nurbs", Object::Patch),
+        ("skybox skydome skysphere", Object::Sky),
         ("curve", Object::Curve),
         ("parametric", Object::Formula),
         ("grid", Object::Grid),

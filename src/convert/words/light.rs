@@ -35,7 +35,7 @@ pub static LIGHTS: Vocabulary = Vocabulary {
 /// Any one light. `u` and `v` are edges or half edges, see the reader.
 pub static LIGHT: Vocabulary = Vocabulary {
     rows: &[
-        row("position", Free, "position center pos location dposition"),
+        row("position", Free, "position center pos location dposition origin"),
         row("corner", Numbers(3), "corner"),
         row("direction", Numbers(3), "direction dir"),
         row("normal", Free, "normal norm"),
@@ -45,7 +45,11 @@ pub static LIGHT: Vocabulary = Vocabulary {
         row("attenuation", Numbers(3), "attenuation"),
         row("falloff", Numbers(1), "falloff"),
         row("radius", Numbers(1), "radius"),
-        row("spread", Numbers(1), "angle innerAngle outerAngle maxAngle cutoff cutOff exponent"),
+        row(
+            "spread",
+            Numbers(1),
+            "angle innerAngle outerAngle maxAngle hotspotAngle falloffAngle falloffDegree cutoff cutOff exponent",
+        ),
         row("area", Numbers(1), "area"),
         row("size", Free, "size"),
         row("edge u", Numbers(3), "dir1 uvec edge1 sideOne u"),
@@ -59,10 +63,10 @@ pub static LIGHT: Vocabulary = Vocabulary {
         row("length u", Numbers(1), "dx x_len width"),
         row("length v", Numbers(1), "dy y_len height"),
         row("up", Numbers(3), "up"),
-        row("p1", Numbers(3), "p1 vertex0 point1"),
-        row("p2", Numbers(3), "p2 vertex1 point2"),
-        row("p3", Numbers(3), "p3 vertex2 point3"),
-        row("p4", Numbers(3), "p4 vertex3 point4"),
+        row("p1", Numbers(3), "p1 vertex0 point1 A"),
+        row("p2", Numbers(3), "p2 vertex1 point2 B"),
+        row("p3", Numbers(3), "p3 vertex2 point3 C"),
+        row("p4", Numbers(3), "p4 vertex3 point4 D"),
         row("range x", Free, "X"),
         row("range y", Free, "Y"),
         row("range z", Free, "Z"),

@@ -1,8 +1,8 @@
 //! Keys of materials, of all dialects at once: a key that two of them use differently takes what follows it freely, and
 //! the reader decides by dialect and by the number of its values.
 
-use super::Args::{Color, Flag, Free, Numbers, Path};
-use super::Values::{Number, Vector, Word};
+use super::Args::{Color, Flag, Free, Maybe, Numbers, Path};
+use super::Values::{Nothing, Number, Vector, Word};
 use super::{Index, Vocabulary, row, stem};
 
 /// `Materials`.
@@ -12,7 +12,7 @@ pub static MATERIALS: Vocabulary = Vocabulary {
     index: Index::new(),
 };
 
-/// One material. `diffuse`, `mirror` and `glass` are colours or shares of a lobe.
+/// One material. `diffuse`, `mirror` and `glass` are colours or shares of a lobe, or flags where nothing follows them.
 pub static MATERIAL: Vocabulary = Vocabulary {
     rows: &[
         row(
@@ -20,20 +20,22 @@ pub static MATERIAL: Vocabulary = Vocabulary {
             Color,
             "color diffuseColor mColor albedo baseColor attenuation attenuationColor Kd base_color",
         ),
-        row("diffuse", Free, "diff diffuse diff_factor w_diffusion diffuseRate perDiffuse diffidx rho_d"),
+        row("diffuse", Maybe, "diff diffuse diff_factor w_diffusion diffuseRate perDiffuse diffidx rho_d"),
+        row("diffuse factor", Free, "kd"),
+        row("specular factor", Free, "ks"),
         row("specular", Color, "specularColor Ks F0"),
-        row("specular or share", Free, "specular rho_s"),
+        row("specular or share", Maybe, "specular rho_s"),
         row("mirror", Color, "reflectiveColor reflectColor mirrorColor"),
         row(
             "mirror",
-            Free,
+            Maybe,
             "refl reflect spec_factor w_reflection specularRate perReflect reflidx reflective \
              reflectiveCoefficient reflectance reflectivity",
         ),
         row("glass", Color, "transparentColor transmissiveColor refractColor transColor"),
         row(
             "glass",
-            Free,
+            Maybe,
             "refract refr_factor w_transmission perRefract refridx refractiveCoefficient transmittance \
              transmissive transparent transparency",
         ),
@@ -44,7 +46,7 @@ pub static MATERIAL: Vocabulary = Vocabulary {
         ),
         row("ambient", Color, "ambientColor Ka ambient"),
         row("shininess", Numbers(1), "shininess exponent Ns"),
-        row("roughness", Numbers(1), "roughness alpha alpha_x alpha_y fuzz fuzziness FUZZ"),
+        row("roughness", Numbers(1), "roughness alpha alpha_g alpha_x alpha_y fuzz fuzziness FUZZ"),
         row("gloss", Numbers(1), "glossiness"),
         row("metallic", Numbers(1), "metallic metalness"),
         row("refr", Numbers(1), "refr"),
@@ -54,7 +56,7 @@ pub static MATERIAL: Vocabulary = Vocabulary {
             Numbers(1),
             "refractive refractive_rate refractiveIndex refractionIndex refractive_index indexOfRefraction \
              refractIndex refraction_rate ref_index refIndex refrN reflectRate refractiveRate ior IOR Ni n N eta \
-             index",
+             iota index",
         ),
         row("refraction", Free, "refraction"),
         row("reflection", Free, "reflection"),
@@ -75,12 +77,15 @@ pub static MATERIAL: Vocabulary = Vocabulary {
         row(
             "aside",
             Free,
-            "absorb R0 d boost cookTorrence iota textDir textcoff textureScale textureSize \
+            "absorb R0 d boost cookTorrence textDir textcoff textureScale textureSize \
              textureLuminance enableReflect enableRefract rate decay_rate dispersion cauchy subsurface tangent0 \
              materialType",
         ),
     ],
     stems: &[
+        stem("REFR", Nothing, "refr trans glass dielec"),
+        stem("SPEC", Nothing, "spec refl mirr"),
+        stem("DIFF", Nothing, "diffus lamb matte"),
         stem("normal map", Word, "norm"),
         stem("bump", Word, "bump height disp"),
         stem("specular map", Word, "spec rough metal mask"),
@@ -94,10 +99,21 @@ pub static MATERIAL: Vocabulary = Vocabulary {
         stem("index", Number, "index ior eta"),
         stem("glass", Number, "refr trans glass"),
         stem("mirror", Number, "refl mirror"),
-        stem("roughness", Number, "rough fuzz"),
+        stem("roughness", Number, "rough fuzz alpha"),
         stem("shininess", Number, "shin expo"),
         stem("diffuse", Number, "diff"),
     ],
+    index: Index::new(),
+};
+
+/// `Fresnel` inside a material: the share that is reflected, `fbase + fscale (1 - cos)^power`.
+pub static FRESNEL: Vocabulary = Vocabulary {
+    rows: &[
+        row("base", Numbers(1), "fbase"),
+        row("scale", Numbers(1), "fscale"),
+        row("power", Numbers(1), "power"),
+    ],
+    stems: &[],
     index: Index::new(),
 };
 

@@ -14,7 +14,7 @@ mod shape;
 
 pub use camera::CAMERA;
 pub use light::{BACKGROUND, LIGHT, LIGHTS};
-pub use material::{MATERIAL, MATERIALS, SOLID};
+pub use material::{FRESNEL, MATERIAL, MATERIALS, SOLID};
 pub use setting::{SETTINGS, TEXTURES};
 pub use shape::{CURVE, GROUP, SHAPE, TRANSFORM};
 
@@ -61,6 +61,8 @@ pub struct Stem {
 /// The values of an unlisted key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Values {
+    /// No value at all: a flag.
+    Nothing,
     Number,
     Vector,
     Word,

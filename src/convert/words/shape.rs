@@ -9,9 +9,10 @@ pub static GROUP: Vocabulary = Vocabulary {
     rows: &[
         row("count", Numbers(1), "numObjects num_objects"),
         row("MaterialIndex", Numbers(1), "MaterialIndex materialIndex"),
+        row("material file", Path, "MaterialPreset MaterialFile"),
         row("obj_file", Path, "ObjFile obj_file"),
     ],
-    stems: &[stem("count", Number, "num")],
+    stems: &[stem("count", Number, "num"), stem("material file", Word, "mater preset")],
     index: Index::new(),
 };
 

@@ -107,9 +107,11 @@ impl<'s> Uses<'s> {
                 set.insert(index);
             }
         });
-        for index in uses.named.clone() {
-            let parts = scene.materials.get(index).into_iter().flat_map(|material| material.look.parts());
-            uses.named.extend(parts);
+        for (index, material) in scene.materials.iter().enumerate().rev() {
+            // Blends refer to those before them, so whoever uses a material has been seen by now.
+            if uses.named.contains(&index) {
+                uses.named.extend(material.look.parts());
+            }
         }
         uses
     }

@@ -100,6 +100,13 @@ fn film(camera: &Camera, dialect: Dialect) -> Entry {
     }
     let (width, height) = camera.size.unwrap_or(USUAL_SIZE);
     let mut parts = vec![Entry::field("size", format!("{width} x {height}"))];
+    if camera.pixel_aspect != 1.0 {
+        parts.push(Entry::field("pixel_aspect", rounded(camera.pixel_aspect)));
+        notes.push(
+            "The original's angles of view are not in the ratio of the sides: its pixels are not square."
+                .into(),
+        );
+    }
     if dialect == Dialect::Pa1 || dialect.is_mit() {
         parts.push(Entry::field("tone", "linear"));
         notes.push("The original stores linear values as they are.".into());

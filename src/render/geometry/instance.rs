@@ -69,7 +69,7 @@ impl PlacedMesh {
     /// An area vector is taken to the world by the cofactors of the transform: its inverse, transposed, times |det|.
     pub fn cross(&self, mesh: &Mesh, triangle: [u32; 3]) -> DVec3 {
         let determinant = self.instance.world_from_mesh.matrix3.determinant().abs();
-        let cross = cross_of_edges(mesh.corners(triangle).map(|p| p.as_dvec3()));
+        let cross = cross_of_edges(mesh.corners(triangle));
         self.normal_from_mesh * cross * determinant
     }
 
@@ -86,6 +86,11 @@ impl PlacedMesh {
     /// A vector of the mesh in the world.
     pub fn vector(&self, v: DVec3) -> DVec3 {
         self.instance.world_from_mesh.transform_vector3(v)
+    }
+
+    /// A vector of the world in the frame of the mesh.
+    pub fn vector_mesh(&self, v: Vec3) -> Vec3 {
+        self.mesh_from_world.transform_vector3(v.as_dvec3()).as_vec3()
     }
 
     /// The unit normal in the world; zero for zero.

@@ -2,7 +2,8 @@
 
 use super::surface::interpolate_point;
 use super::{Geometry, Prim, PrimId, SurfacePoint};
-use crate::math::{DVec3, Vec2, Vec3, warp};
+use crate::math::{Bounds, DVec3, Vec2, Vec3, warp};
+use crate::render::shape::SolidKind;
 use crate::render::shape::triangle::cross_of_edges;
 
 /// A point drawn by area.
@@ -37,7 +38,31 @@ pub struct DirectionSample {
     pub pdf: f32,
 }
 
+/// Where a primitive lies, and which way it faces.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Outline {
+    /// A box that holds it.
+    pub bounds: Bounds,
+    /// The unit normal of what is flat.
+    pub n: Option<Vec3>,
+}
+
 impl Geometry {
+    /// Where a triangle, disk or sphere lies; `None` for a plane.
+    pub fn outline(&self, prim: PrimId) -> Option<Outline> {
+        match self.prim(prim) {
+            Prim::Triangle(mesh, triangle) => Some(self.outline_of(prim, Bounds::of(mesh.corners(triangle)))),
+            Prim::Placed(placed, mesh, triangle) => {
+                Some(self.outline_of(prim, placed.bounds(Bounds::of(mesh.corners(triangle)))))
+            }
+            Prim::Solid(solid) => {
+                let is_flat = matches!(solid.solid().kind, SolidKind::Disk);
+                let n = is_flat.then(|| solid.sample_area(Vec2::ZERO).n);
+                Some(Outline { bounds: solid.bounds()?, n })
+            }
+        }
+    }
+
     /// The area of a primitive in square metres; infinite for planes.
     pub fn area(&self, prim: PrimId) -> f64 {
         match self.prim(prim) {
@@ -65,10 +90,14 @@ impl Geometry {
         AreaSample { p, p_error, n, uv: b, pdf_area: (2.0 / cross.length()) as f32 }
     }
 
+    fn outline_of(&self, triangle: PrimId, bounds: Bounds) -> Outline {
+        Outline { bounds, n: Some(self.cross(triangle).normalize().as_vec3().normalize()) }
+    }
+
     /// A vector along the outward normal of a triangle, twice as long as its area; zero for anything else.
     fn cross(&self, prim: PrimId) -> DVec3 {
         match self.prim(prim) {
-            Prim::Triangle(mesh, triangle) => cross_of_edges(mesh.corners(triangle).map(|p| p.as_dvec3())),
+            Prim::Triangle(mesh, triangle) => cross_of_edges(mesh.corners(triangle)),
             Prim::Placed(placed, mesh, triangle) => placed.cross(mesh, triangle),
             Prim::Solid(_) => DVec3::ZERO,
         }

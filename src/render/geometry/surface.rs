@@ -71,7 +71,7 @@ pub(super) fn triangle_point(mesh: &Mesh, triangle: [u32; 3], b: Vec2, prim: Pri
     let corners = mesh.corners(triangle).map(|p| p.as_dvec3());
     let (p, p_error) = interpolate_point(corners, b);
     let p = p.as_vec3();
-    let n = cross_of_edges(corners).normalize().as_vec3().normalize();
+    let n = cross_of_edges(mesh.corners(triangle)).normalize().as_vec3().normalize();
     let ns = shading_normal(mesh, triangle, b, n, |normal| normal);
     let (uv, tangent) = texture_frame(mesh, triangle, corners, b);
     SurfacePoint {
@@ -92,7 +92,7 @@ pub(super) fn triangle_point(mesh: &Mesh, triangle: [u32; 3], b: Vec2, prim: Pri
 fn placed_point(placed: &PlacedMesh, mesh: &Mesh, triangle: [u32; 3], b: Vec2, prim: PrimId) -> SurfacePoint {
     let corners = mesh.corners(triangle).map(|p| p.as_dvec3());
     let (p, p_error) = placed.point(mesh, triangle, b);
-    let n = placed.normal(cross_of_edges(corners)).as_vec3().normalize();
+    let n = placed.normal(cross_of_edges(mesh.corners(triangle))).as_vec3().normalize();
     let ns = shading_normal(mesh, triangle, b, n, |normal| placed.normal(normal.as_dvec3()).as_vec3());
     let (uv, tangent) = texture_frame(mesh, triangle, corners, b);
     SurfacePoint {

@@ -4,6 +4,7 @@ use super::{Counters, Integrator, Pass};
 use crate::math::{Ray, Rgb, Vec3};
 use crate::render::bsdf::{Bsdf, BsdfSample, Transport};
 use crate::render::geometry::SurfacePoint;
+use crate::render::light::Viewpoint;
 use crate::render::media::Media;
 use crate::render::sampler::{Dim, Sampler};
 use crate::render::world::World;
@@ -24,7 +25,7 @@ struct Vertex<'a> {
 
 /// The vertex a path left last: by what other strategy could light found next have been drawn from there?
 struct Last {
-    p: Vec3,
+    from: Viewpoint,
     /// The density of the direction taken, per steradian; infinite if nothing else could have found it.
     pdf: f32,
 }
@@ -43,8 +44,8 @@ impl Integrator for PathTracer<'_> {
         let materials = &self.world.materials;
         let mut radiance = Rgb::BLACK;
         let mut beta = Rgb::WHITE;
-        let mut last = Last { p: ray.o, pdf: f32::INFINITY };
-        let mut media = Media::NONE;
+        let mut last = Last { from: Viewpoint { p: ray.o, n: None }, pdf: f32::INFINITY };
+        let mut media = Media::start(&self.world.materials, sampler);
         let mut eta_scale = 1.0; // the factor η² that refraction has taken from beta, and will give back
 
         for depth in 0..self.max_depth {
@@ -73,9 +74,10 @@ impl Integrator for PathTracer<'_> {
             beta *= next.weight;
             eta_scale *= next.eta * next.eta;
             ray = surface.spawn(next.wi);
-            last = Last { p: surface.p, pdf: if next.specular { f32::INFINITY } else { next.pdf } };
+            last =
+                Last { from: vertex.viewpoint(), pdf: if next.specular { f32::INFINITY } else { next.pdf } };
             if next.through {
-                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
+                beta *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &self.world.materials);
             }
 
             // End dim paths early; the survivors carry their weight.
@@ -94,8 +96,11 @@ impl Integrator for PathTracer<'_> {
 impl PathTracer<'_> {
     /// What the sky sends along a direction taken at the last vertex, weighed against drawing it as a light.
     fn sky(&self, dir: Vec3, last: &Last) -> Rgb {
-        let (radiance, pdf) = self.world.lights.sky(dir);
-        radiance * mis_weight(last.pdf, pdf)
+        let (radiance, _) = self.world.lights.sky(dir);
+        if radiance.is_black() || last.pdf == f32::INFINITY {
+            return radiance;
+        }
+        radiance * mis_weight(last.pdf, self.world.lights.pdf_sky(&last.from, dir))
     }
 
     /// What the surface emits towards the last vertex, weighed against drawing it as a light.
@@ -104,19 +109,18 @@ impl PathTracer<'_> {
         if radiance.is_black() || last.pdf == f32::INFINITY {
             return radiance;
         }
-        radiance * mis_weight(last.pdf, self.world.lights.pdf_area(&self.world.geometry, last.p, surface))
+        radiance * mis_weight(last.pdf, self.world.lights.pdf_area(&self.world.geometry, &last.from, surface))
     }
 
     /// What one light sends straight to a vertex and on to the viewer, weighed against finding it by the bsdf.
     fn direct(&self, vertex: &Vertex, media: &Media, sampler: &Sampler, counters: &mut Counters) -> Rgb {
         let (world, depth) = (self.world, vertex.depth);
-        let Some((light, pmf)) = world.lights.choose(sampler.get_1d(Dim::LightChoice(depth))) else {
+        let (u_choice, u) = (sampler.get_2d(Dim::LightChoice(depth)), sampler.get_2d(Dim::Light(depth)));
+        let Some(drawn) = world.lights.sample_li(&world.geometry, &vertex.viewpoint(), u_choice, u) else {
             return Rgb::BLACK;
         };
-        let u = sampler.get_2d(Dim::Light(depth));
-        let Some(drawn) = light.sample_li(&world.geometry, vertex.surface.p, u) else { return Rgb::BLACK };
         let (value, pdf_bsdf) = vertex.bsdf.eval_pdf(vertex.wo, drawn.wi);
-        let arriving = value * drawn.radiance;
+        let mut arriving = value * drawn.radiance;
         if arriving.is_black() {
             return Rgb::BLACK;
         }
@@ -124,13 +128,24 @@ impl PathTracer<'_> {
         if world.any_hit(&drawn.shadow_ray(vertex.surface)) {
             return Rgb::BLACK;
         }
-        let pdf = pmf * drawn.pdf;
-        let weight = if drawn.delta { 1.0 } else { mis_weight(pdf, pdf_bsdf) };
-        arriving * media.transmittance(drawn.distance(), &world.materials) * (weight / pdf)
+        let weight = if drawn.delta { 1.0 } else { mis_weight(drawn.pdf, pdf_bsdf) };
+        let mut media = *media;
+        let n = vertex.surface.n;
+        if vertex.wo.dot(n) * drawn.wi.dot(n) < 0.0 && vertex.bsdf.spreads_through() {
+            arriving *= media.pass(vertex.surface.material, drawn.wi.dot(n) < 0.0, &world.materials);
+        }
+        arriving * media.transmittance(drawn.distance(), &world.materials) * (weight / drawn.pdf)
     }
 }
 
 impl Vertex<'_> {
+    /// From where it looks for light: above its surface, unless light may come through it.
+    fn viewpoint(&self) -> Viewpoint {
+        let ns = self.bsdf.normal();
+        let n = if self.wo.dot(self.surface.n) < 0.0 { -ns } else { ns };
+        Viewpoint { p: self.surface.p, n: (!self.bsdf.transmits()).then_some(n) }
+    }
+
     /// Draws the direction in which the path goes on.
     fn sample_bsdf(&self, sampler: &Sampler) -> Option<BsdfSample> {
         let u = sampler.get_2d(Dim::Bsdf(self.depth));

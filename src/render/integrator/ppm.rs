@@ -11,7 +11,7 @@
 use super::path::roulette;
 use super::{Counters, Integrator, Pass};
 use crate::math::{Ray, Rgb, Vec3};
-use crate::render::bsdf::{Bsdf, Lobe, Transport};
+use crate::render::bsdf::{Bsdf, Transport};
 use crate::render::driver::PpmSettings;
 use crate::render::geometry::SurfacePoint;
 use crate::render::media::Media;
@@ -89,7 +89,7 @@ impl Integrator for PhotonMapper<'_> {
     fn radiance(&self, mut ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
         let mut radiance = Rgb::BLACK;
         let mut beta = Rgb::WHITE;
-        let mut media = Media::NONE;
+        let mut media = Media::start(&self.world.materials, sampler);
         let mut eta_scale = 1.0; // the factor η² that refraction has taken from beta, and will give back
 
         for depth in 0..self.max_depth {
@@ -118,7 +118,7 @@ impl Integrator for PhotonMapper<'_> {
             eta_scale *= next.eta * next.eta;
             ray = surface.spawn(next.wi);
             if next.through {
-                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
+                beta *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &self.world.materials);
             }
 
             // End dim paths early; the survivors carry their weight.
@@ -149,7 +149,7 @@ impl PhotonMapper<'_> {
             self.map.nearest(&disc, accepts, found);
             let (counted, disc2) = bounding_disc(found, k, radius2);
             let photons = counted.iter().map(|neighbor| &self.map.photons()[neighbor.index as usize]);
-            reflected(photons, surface, bsdf, wo, n) / (PI * disc2)
+            reflected(photons, bsdf, wo, n) / (PI * disc2)
         })
     }
 }
@@ -169,16 +169,8 @@ fn bounding_disc(found: &[Neighbor], k: usize, radius2: f32) -> (&[Neighbor], f3
 ///
 /// Photons arrive in proportion to the cosine with the geometric normal, `eval` counts that with the shading normal: their
 /// ratio remains. Where both are the same and the surface is diffuse, the bsdf is the same for all.
-fn reflected<'p>(
-    photons: impl Iterator<Item = &'p Photon>,
-    surface: &SurfacePoint,
-    bsdf: &Bsdf,
-    wo: Vec3,
-    n: Vec3,
-) -> Rgb {
-    if let [Lobe::Lambert { albedo }] = *bsdf.lobes()
-        && surface.n == surface.ns
-    {
+fn reflected<'p>(photons: impl Iterator<Item = &'p Photon>, bsdf: &Bsdf, wo: Vec3, n: Vec3) -> Rgb {
+    if let Some(albedo) = bsdf.matt_albedo() {
         return photons.map(|photon| photon.power).sum::<Rgb>() * albedo * FRAC_1_PI;
     }
     photons.map(|photon| photon.power * bsdf.eval(wo, photon.wi) / photon.wi.dot(n)).sum()

@@ -32,20 +32,29 @@ pub struct Sky {
     /// Over the texels of a picture that is not black.
     grid: Option<GridDistribution>,
     mean: Rgb,
+    /// Over the texels brighter than the mean, by how much they are.
+    peaks: Option<GridDistribution>,
+    /// The mean over all directions of the luminance above the mean.
+    peak_mean: f32,
 }
 
 impl Sky {
     /// Makes an environment ready.
     pub fn new(environment: Environment) -> Self {
-        let (grid, mean) = match &environment.radiance {
-            EnvironmentRadiance::Constant(color) => (None, *color),
-            EnvironmentRadiance::Image(image) => {
-                let weights = texel_weights(image);
-                (GridDistribution::new(image.width() as usize, &weights), mean_radiance(image))
-            }
+        let EnvironmentRadiance::Image(image) = &environment.radiance else {
+            let mean = match &environment.radiance {
+                EnvironmentRadiance::Constant(color) => *color * environment.scale,
+                EnvironmentRadiance::Image(_) => unreachable!("it is no picture"),
+            };
+            return Self { environment, grid: None, mean, peaks: None, peak_mean: 0.0 };
         };
-        let mean = mean * environment.scale;
-        Self { environment, grid, mean }
+        let weights = texel_weights(image);
+        let over = weights_over_mean(image, &weights);
+        let width = image.width() as usize;
+        let (grid, peaks) = (GridDistribution::new(width, &weights), GridDistribution::new(width, &over));
+        let peak_mean = (over.iter().sum::<f64>() / (4.0 * PI)) as f32 * environment.scale;
+        let mean = mean_radiance(image) * environment.scale;
+        Self { environment, grid, mean, peaks, peak_mean }
     }
 
     /// The radiance from the unit direction `dir`; between texel centres of a picture it goes in straight lines.
@@ -67,22 +76,42 @@ impl Sky {
         let (Some(grid), EnvironmentRadiance::Image(image)) = (&self.grid, &self.environment.radiance) else {
             return (warp::square_to_uniform_sphere(u), UNIFORM_PDF);
         };
-        let cell = grid.sample(f64::from(u.x), f64::from(u.y));
-        let (top, bottom) = (row_edge(image, cell.row), row_edge(image, cell.row + 1));
-        let cos_theta = top + (bottom - top) * cell.y;
-        let s = (cell.column as f64 + cell.x) / f64::from(image.width());
-        let phi = (s - 0.5) * TAU - f64::from(self.environment.rotation);
-        let (sin_phi, cos_phi) = float::sin_cos64(phi);
-        let sin_theta = (1.0 - cos_theta * cos_theta).max(0.0).sqrt();
-        let dir = Vec3::new((sin_theta * sin_phi) as f32, cos_theta as f32, (-sin_theta * cos_phi) as f32);
-        (dir.normalize(), (cell.pmf / texel_angle(image, cell.row)) as f32)
+        draw(grid, image, self.environment.rotation, u)
+    }
+
+    /// Draws a direction for paths that find the sky by their bsdf as well; `None` where that alone does best, under a sky
+    /// of one colour.
+    ///
+    /// Density is in proportion to the luminance above the mean: what is left to chance needs no drawing (Karlík, Šik,
+    /// Vévoda, Skřivan, Křivánek 2019, section 4).
+    pub fn sample_direct(&self, u: Vec2) -> Option<(Vec3, f32)> {
+        match (&self.peaks, &self.environment.radiance) {
+            (Some(peaks), EnvironmentRadiance::Image(image)) => {
+                Some(draw(peaks, image, self.environment.rotation, u))
+            }
+            _ => None,
+        }
+    }
+
+    /// The density per steradian with which [`Self::sample_direct`] draws `dir`.
+    pub fn pdf_direct(&self, dir: Vec3) -> f32 {
+        self.peaks.as_ref().map_or(0.0, |peaks| self.density(peaks, dir))
+    }
+
+    /// The irradiance on any surface from a sky as bright everywhere as [`Self::sample_direct`] finds it on average, as
+    /// luminance.
+    pub fn direct_irradiance(&self) -> f32 {
+        if self.peaks.is_some() { self.peak_mean * std::f32::consts::PI } else { 0.0 }
     }
 
     /// The density per steradian with which [`Self::sample`] draws `dir`.
     pub fn pdf(&self, dir: Vec3) -> f32 {
-        let (Some(grid), EnvironmentRadiance::Image(image)) = (&self.grid, &self.environment.radiance) else {
-            return UNIFORM_PDF;
-        };
+        self.grid.as_ref().map_or(UNIFORM_PDF, |grid| self.density(grid, dir))
+    }
+
+    /// The density per steradian with which a direction is drawn from a grid over the picture's texels.
+    fn density(&self, grid: &GridDistribution, dir: Vec3) -> f32 {
+        let EnvironmentRadiance::Image(image) = &self.environment.radiance else { return UNIFORM_PDF };
         let [s, t] = self.image_point(dir);
         let column = ((s * f64::from(image.width())) as usize).min(image.width() as usize - 1);
         let row = ((t * f64::from(image.height())) as usize).min(image.height() as usize - 1);
@@ -99,6 +128,19 @@ impl Sky {
 }
 
 const UNIFORM_PDF: f32 = std::f32::consts::FRAC_1_PI / 4.0;
+
+/// A direction from a grid over the texels of a picture, and its density per steradian.
+fn draw(grid: &GridDistribution, image: &Image, rotation: f32, u: Vec2) -> (Vec3, f32) {
+    let cell = grid.sample(f64::from(u.x), f64::from(u.y));
+    let (top, bottom) = (row_edge(image, cell.row), row_edge(image, cell.row + 1));
+    let cos_theta = top + (bottom - top) * cell.y;
+    let s = (cell.column as f64 + cell.x) / f64::from(image.width());
+    let phi = (s - 0.5) * TAU - f64::from(rotation);
+    let (sin_phi, cos_phi) = float::sin_cos64(phi);
+    let sin_theta = (1.0 - cos_theta * cos_theta).max(0.0).sqrt();
+    let dir = Vec3::new((sin_theta * sin_phi) as f32, cos_theta as f32, (-sin_theta * cos_phi) as f32);
+    (dir.normalize(), (cell.pmf / texel_angle(image, cell.row)) as f32)
+}
 
 /// The cosine from +y of the upper edge of a row.
 fn row_edge(image: &Image, row: usize) -> f64 {
@@ -140,6 +182,20 @@ fn texel_weights(image: &Image) -> Vec<f64> {
         );
     }
     weights
+}
+
+/// What is left of the weights of texels once each has lost the mean.
+fn weights_over_mean(image: &Image, weights: &[f64]) -> Vec<f64> {
+    let mean = weights.iter().sum::<f64>() / (4.0 * PI);
+    let rows = (0..).zip(weights.chunks(image.width() as usize));
+    rows.flat_map(|(y, row)| {
+        let angle = texel_angle(image, y);
+        // A sky of one colour is above its mean by rounding alone.
+        row.iter()
+            .map(move |weight| weight - mean * angle)
+            .map(move |w| if w > 1e-9 * mean * angle { w } else { 0.0 })
+    })
+    .collect()
 }
 
 /// The mean of the texels, weighted by solid angle.

@@ -4,17 +4,22 @@
 //! of one found by chance), and for photons (`sample_emission` draws a ray that leaves it).
 
 mod alias;
+mod cone;
 mod distribution;
 mod environment;
 mod lights;
+mod rect;
+mod tree;
 
 pub use alias::AliasTable;
+pub use cone::Cone;
 pub use environment::{Environment, EnvironmentRadiance, Sky};
 pub use lights::Lights;
+pub use tree::{LightBounds, LightTree, Viewpoint};
 
 use super::bsdf::Emission;
-use super::geometry::{Geometry, PrimId, SurfacePoint};
-use crate::math::{Frame, Ray, Rgb, Vec2, Vec3, warp};
+use super::geometry::{DirectionSample, Geometry, PrimId, SurfacePoint};
+use crate::math::{Bounds, Frame, Ray, Rgb, Vec2, Vec3, warp};
 use std::f32::consts::{FRAC_1_PI, PI};
 
 /// A source of light.
@@ -95,6 +100,13 @@ pub enum LightEnd {
 }
 
 impl LightSample {
+    /// What a point drawn on a surface sends; `None` if it shines to the other side.
+    fn of_surface(at: DirectionSample, emission: &Emission) -> Option<Self> {
+        let radiance = emission.radiance(-at.wi.dot(at.n));
+        let end = LightEnd::At { p: at.p, p_error: at.p_error, n: at.n, distance: at.distance };
+        (!radiance.is_black()).then_some(Self { wi: at.wi, radiance, pdf: at.pdf, delta: false, end })
+    }
+
     /// The open segment that must be free for the light to arrive.
     pub fn shadow_ray(&self, from: &SurfacePoint) -> Ray {
         match self.end {
@@ -141,16 +153,7 @@ impl Light {
                 end: LightEnd::Infinity,
             }),
             Self::Area { prim, emission } => {
-                let at = geometry.sample_toward(*prim, from, u)?;
-                let radiance = emission.radiance(-at.wi.dot(at.n));
-                let end = LightEnd::At { p: at.p, p_error: at.p_error, n: at.n, distance: at.distance };
-                (!radiance.is_black()).then_some(LightSample {
-                    wi: at.wi,
-                    radiance,
-                    pdf: at.pdf,
-                    delta: false,
-                    end,
-                })
+                LightSample::of_surface(geometry.sample_toward(*prim, from, u)?, emission)
             }
             Self::Environment(sky) => {
                 let (wi, pdf) = sky.sample(u);
@@ -184,6 +187,43 @@ impl Light {
                 let (towards, pdf) = sky.sample(u_dir);
                 emission_from_infinity(geometry, -towards, sky.radiance(towards) / pdf, u_pos)
             }
+        }
+    }
+
+    /// Where it is and how it shines; `None` for what is infinitely far away.
+    fn bounds(&self, geometry: &Geometry) -> Option<LightBounds> {
+        match self {
+            Self::Point { p, intensity, .. } => Some(LightBounds {
+                bounds: Bounds::new(*p, *p),
+                intensity: intensity.luminance(),
+                normals: Cone::ALL,
+                cos_reach: 0.0,
+                two_sided: false,
+            }),
+            Self::Area { prim, emission } => {
+                let outline = geometry.outline(*prim)?;
+                let (front, back) = (emission.front.luminance(), emission.back.luminance());
+                let side = if front > 0.0 { 1.0 } else { -1.0 };
+                // Of a ball a quarter of the surface is seen, as a disk that faces the viewer.
+                let seen = if outline.n.is_some() { 1.0 } else { 0.25 };
+                Some(LightBounds {
+                    bounds: outline.bounds,
+                    intensity: front.max(back) * geometry.area(*prim) as f32 * seen,
+                    normals: outline.n.map_or(Cone::ALL, |n| Cone::around(n * side)),
+                    cos_reach: 0.0,
+                    two_sided: front > 0.0 && back > 0.0,
+                })
+            }
+            Self::Directional { .. } | Self::Environment(_) => None,
+        }
+    }
+
+    /// What a surface that faces it receives from infinitely far away beyond what chance finds as well, as luminance.
+    fn distant_irradiance(&self) -> f32 {
+        match self {
+            Self::Directional { irradiance, .. } => irradiance.luminance(),
+            Self::Environment(sky) => sky.direct_irradiance(),
+            Self::Point { .. } | Self::Area { .. } => 0.0,
         }
     }
 

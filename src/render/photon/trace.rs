@@ -22,8 +22,9 @@ pub fn gathers(lobe: &Lobe) -> bool {
     match *lobe {
         Lobe::Lambert { .. } => true,
         Lobe::Phong { exponent, .. } => exponent <= SHARP_EXPONENT,
-        Lobe::Conductor { alpha, .. } => alpha >= SHARP_ALPHA,
-        Lobe::Mirror { .. } | Lobe::Dielectric { .. } => false,
+        Lobe::Conductor(rough) => rough.alpha >= SHARP_ALPHA,
+        Lobe::Substrate(_) => true,
+        Lobe::Mirror(_) | Lobe::Dielectric { .. } | Lobe::RoughDielectric(_) | Lobe::Pane(_) => false,
     }
 }
 
@@ -67,7 +68,7 @@ impl Tracer<'_> {
 
     /// Along a ray, from surface to surface, leaving a photon on each that gathers them.
     fn follow(&mut self, mut ray: Ray, mut power: Rgb, sampler: &Sampler) {
-        let mut media = Media::NONE;
+        let mut media = Media::start(&self.world.materials, sampler);
         for bounce in 0..self.max_depth.saturating_sub(1) {
             self.rays += 1;
             let Some(hit) = self.world.closest_hit(&ray) else { return };
@@ -93,7 +94,7 @@ impl Tracer<'_> {
             power *= next.weight / survival;
             ray = surface.spawn(next.wi);
             if next.through {
-                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
+                power *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &self.world.materials);
             }
         }
     }

@@ -19,6 +19,8 @@ pub struct PlacedSolid {
     determinant: f64,
     /// What a surface of revolution needs.
     revolve: Option<Revolve>,
+    /// At most the radius of the sharpest bend of a sphere or torus, in the world; infinite for what is flat or has corners.
+    radius: f64,
     area: f64,
 }
 
@@ -43,6 +45,11 @@ impl PlacedSolid {
             revolve: match &solid.kind {
                 SolidKind::Revolve(profile) => Some(Revolve::new(profile)),
                 _ => None,
+            },
+            radius: match &solid.kind {
+                SolidKind::Sphere => sharpest_bend(&solid.world_from_object.matrix3),
+                SolidKind::Torus(torus) => torus.minor * sharpest_bend(&solid.world_from_object.matrix3),
+                _ => f64::INFINITY,
             },
             solid,
         }
@@ -285,7 +292,10 @@ impl PlacedSolid {
             + m.matrix3.z_axis.abs() * extent.z
             + m.translation.abs();
         let error = exact.abs() * f64::from(float::gamma(2)) + terms * FRAME_ERROR;
-        (exact.as_vec3(), error.as_vec3())
+        // A point that is off along the surface is off it, too: by the square of that over twice the radius of its bend.
+        // Rays that leave are rounded once more, so that what counts is twice the error.
+        let bend = 2.0 * error.length_squared() / self.radius;
+        (exact.as_vec3(), (error + bend).as_vec3())
     }
 
     /// The extent in the object's frame to which the errors of its points are in proportion, where that is not their own.
@@ -332,6 +342,15 @@ pub fn area(kind: &SolidKind, world_from_object: &DAffine3) -> f64 {
         SolidKind::Frustum(frustum) => frustum.elements().map(sum).sum(),
         SolidKind::Torus(torus) => torus.elements().map(sum).sum(),
     }
+}
+
+/// A lower bound on the radius of the sharpest bend of the ellipsoid that a unit sphere becomes: the shortest half-axis
+/// squared over the longest. With the sum of squares F² = Σ sᵢ² of the half-axes, each is below F, and the shortest is
+/// above |det| / F².
+fn sharpest_bend(m: &DMat3) -> f64 {
+    let square: f64 = m.to_cols_array().iter().map(|x| x * x).sum();
+    let shortest = m.determinant().abs() / square;
+    shortest * shortest / square.sqrt()
 }
 
 /// The radius that the unit sphere takes if `m` leaves it round (to 10⁻⁶).

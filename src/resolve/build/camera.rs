@@ -15,6 +15,7 @@ impl<'a> Resolver<'a> {
     pub(in crate::resolve) fn camera(&mut self, object: &'a Object, env: &Env<'a>) {
         let block = schema::block("camera").expect("declared in the registry");
         let fields = self.read(block, object.kind.span, &object.body, env);
+        self.scene.intent.camera.get_or_insert(object.span);
         self.unique_camera(object);
         if let Some(camera) = self.camera_of(&fields, object) {
             self.scene.cameras.push(camera);
@@ -62,7 +63,8 @@ impl<'a> Resolver<'a> {
             (Some(name), Some(length)) => {
                 let (one, other) = (name.to_owned(), "focal_length".to_owned());
                 let first = fields.span(name)?;
-                self.report(Error::ConflictingFields { one, other, first, second: length.span });
+                let help = "keep one of them".to_owned();
+                self.report(Error::ConflictingFields { help, one, other, first, second: length.span });
                 None
             }
             (Some("fov_x"), None) => fields.number("fov_x").map(|angle| angle.map(Fov::Horizontal)),
@@ -124,7 +126,8 @@ impl<'a> Resolver<'a> {
             "agx" => Tone::Agx,
             _ => Tone::Srgb,
         });
-        Some(Film { size, filter, sensor: fields.number("sensor")?, exposure, tone })
+        let pixel_aspect = fields.number("pixel_aspect")?;
+        Some(Film { size, filter, pixel_aspect, sensor: fields.number("sensor")?, exposure, tone })
     }
 }
 

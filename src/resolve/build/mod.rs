@@ -3,6 +3,7 @@
 mod camera;
 mod light;
 mod material;
+mod metal;
 mod render;
 mod shape;
 mod texture;
@@ -21,18 +22,6 @@ const CSG: &[&str] = &["difference", "union", "intersection", "merge", "subtract
 const LATER: &[(&str, &str)] = &[
     ("sweep", "model it as a `mesh`"),
     ("heightfield", "model it as a `mesh`"),
-    ("plastic", "use `phong`"),
-    ("principled", "use `phong`, `metal` or `glass`, or a `mix` of them"),
-    ("layer", "use `phong`, or a `mix`"),
-    ("mask", "cut the shape itself"),
-    ("two_sided", "materials show on both sides already"),
-    ("normal_map", "use a finer mesh"),
-    ("bump", "use a finer mesh"),
-    ("gradient", "use `image` or `checker`"),
-    ("noise", "use `image` or `checker`"),
-    ("marble", "use `image`"),
-    ("wood", "use `image`"),
-    ("brick", "use `image` or `checker`"),
     ("orthographic", "use a long way off and a small `fov`"),
     ("panorama", "use `pinhole`"),
     ("fisheye", "use `pinhole`"),
@@ -141,7 +130,11 @@ impl<'a> Resolver<'a> {
             Error::UnknownBlock { kind: kind.to_owned(), used, help }
         });
         self.report(error);
-        self.misspelt_block(object, kind, env);
+        if CSG.contains(&kind) {
+            self.members(&object.body, env);
+        } else {
+            self.misspelt_block(object, kind, env);
+        }
         Value::Poison
     }
 }
@@ -183,6 +176,14 @@ fn foreign_block_help(kind: &str) -> Option<String> {
         "model" | "obj" | "trianglemesh" => "mesh",
         "lathe" | "sor" => "revolve",
         "prism" => "extrude",
+        "checkerboard" | "checkers" | "chequer" => "checker",
+        "lambert" | "lambertian" | "matte" | "matt" => "diffuse",
+        "dielectric" => "glass",
+        "conductor" => "metal",
+        "emitter" | "emission" => "emissive",
+        "rectangle" | "square" => "quad",
+        "circle" | "disc" => "disk",
+        "bitmap" | "picture" => "image",
         "sky" | "skybox" | "background" | "envmap" => "environment",
         word if word.starts_with("while ") => {
             return Some("a loop runs over a range: `for i in 0..3 { .. }`".to_owned());
@@ -207,7 +208,9 @@ pub fn kinds_for<'n>(body: &Block) -> impl Iterator<Item = (&'n str, bool)> {
 /// Whether a kind of block has the fields that are written, or most of them: one may be misspelt as well.
 fn takes_fields(block: &schema::Block, body: &Block) -> bool {
     let field = |entry: &Entry| match entry {
-        Entry::Field(field) => Some(block.field(&field.name).is_some()),
+        Entry::Field(field) => {
+            Some(block.field(&field.name).or_else(|| block.field(&field.name.to_lowercase())).is_some())
+        }
         Entry::Item(_) => None,
     };
     let (known, unknown): (Vec<bool>, Vec<bool>) =

@@ -23,6 +23,8 @@ impl<'a> Resolver<'a> {
         let transform = steps_of(fields.value("transform").map(|slot| &slot.value));
         let material = match fields.value("material").map(|slot| &slot.value) {
             Some(Value::Material(handle)) => Some(*handle),
+            // Not known, but surely not what a mesh's own file says.
+            _ if fields.has("material") => Some(self.stand_in(span)),
             _ => None,
         };
         let kind = if fields.block.kind == "group" {

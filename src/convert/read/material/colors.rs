@@ -5,6 +5,7 @@ use super::{USUAL_INDEX, clear};
 use crate::convert::dialect::Dialect;
 use crate::convert::fields::{Field, Fields};
 use crate::convert::model::{Look, Texture};
+use crate::convert::parse::Span;
 use crate::convert::read::Reader;
 use crate::math::DVec3;
 
@@ -23,11 +24,18 @@ impl Reader<'_> {
         if self.is_classic() {
             return self.whitted_look(fields);
         }
-        let has_diffuse = fields.has("color") || fields.peek("diffuse").is_some_and(Field::is_vector);
+        let has_diffuse = fields.has("color") || fields.peek_where("diffuse", Field::is_vector).is_some();
         let mirror = self.color_of(fields, "mirror", "the share and colour of a `mirror`");
         let glass = self.color_of(fields, "glass", "the share and colour of `glass`");
+        let says_index = fields.peek("index").map(|field| field.span.clone());
         let index = self.index(fields, &["index", "refraction", "refr", "refractRate"]);
         let is_glass = index.is_some_and(|index| index > 0.0);
+        let no_layers = mirror.is_none() && glass.is_none();
+        if let Some(at) = says_index.filter(|_| no_layers && !dialect.is_mit() && dialect != Dialect::Implied)
+            && let Some(look) = self.look_of_index(fields, index, &at, notes)
+        {
+            return look;
+        }
         let reflects_specular = matches!(dialect, Dialect::Mit2010 | Dialect::Mit2016) || is_glass;
 
         if dialect == Dialect::Implied && mirror.is_none() && glass.is_none() && !has_diffuse {
@@ -56,6 +64,26 @@ impl Reader<'_> {
             }
         };
         layered(base, &lobes, notes)
+    }
+
+    /// An index of refraction, and neither a share nor a colour of what it refracts: glass, tinted by the one colour.
+    fn look_of_index(
+        &mut self,
+        fields: &mut Fields<'_>,
+        index: Option<f64>,
+        at: &Span,
+        notes: &mut Vec<String>,
+    ) -> Option<Look> {
+        let has_specular = self.peek_color(fields, "specular") != DVec3::ZERO;
+        let index = index.filter(|index| *index > 1.0 && !has_specular)?;
+        let color = self.one_color(fields);
+        if self.roughness(fields) > 0.0 {
+            notes.push("The original's glass is rough; this one is clear.".into());
+        }
+        let help =
+            "it says how light bends and not how much of it does; if it is opaque, write `diffuse` instead";
+        self.log.differs("a surface with an index of refraction was taken as glass", at, help);
+        Some(clear(index, color))
     }
 
     /// The terms of the original as they are: see [`Self::colored_look`].
@@ -126,8 +154,9 @@ impl Reader<'_> {
         let specular_color = specular.as_ref().map_or(DVec3::ZERO, |field| self.reflectance(field));
         let shininess = self.log.take(fields, "shininess");
         let roughness = if shininess.is_none() { self.roughness(fields) } else { 0.0 };
-        let ambient = "part of the ambient light, for which an environment stands";
-        self.log.put_aside(fields, &["ambient"], ambient);
+        if shininess.is_some() {
+            self.log.put_aside(fields, &["gloss", "roughness"], "`shininess` says how wide the highlight is");
+        }
         let matte = Look::Diffuse { color: Texture::plain(color) };
         if specular_color == DVec3::ZERO {
             for field in [&specular, &shininess].into_iter().flatten() {

@@ -52,6 +52,13 @@ impl Reader<'_> {
         for slot in &mut slots {
             slot.picture = Some(picture.clone());
         }
+        if !field.numbers.is_empty() && field.word.is_some() {
+            let said: Vec<&str> = field.numbers.iter().map(|number| number.text).collect();
+            let said = said.join(" ");
+            notes.push(format!(
+                "The original says {said} after its picture, usually how often it repeats: see `uv_scale`."
+            ));
+        }
         self.log.approximated(&field.span, "`image`, laid on by the shape's own uv coordinates");
         self.log.differs(
             "how a picture is laid on differs from program to program",
@@ -86,7 +93,7 @@ impl Reader<'_> {
             self.log.not_convertible(
                 "this picture",
                 &field.span,
-                "the renderer reads PNG, JPEG, PPM, HDR and EXR; convert it and write `image(..)` for the colour",
+                "the renderer reads PNG, JPEG, BMP, TGA, PPM, HDR and EXR; convert it and write `image(..)` for the colour",
             );
             notes.push(format!(
                 "Its picture {} is of a kind that cannot be read; convert it to PNG.",

@@ -14,13 +14,35 @@ pub(super) struct Lobes {
     weights: [f64; 3],
     /// The index of refraction where the material does not say one.
     index: f64,
+    /// Whether each lobe may have a colour of its own, rather than all of them the one of the material.
+    own_colors: bool,
+    /// Whether the weight of a lobe was read off its colour, which then says the hue only.
+    in_color: [bool; 3],
 }
 
 impl Lobes {
     fn one(lobe: usize) -> Self {
         let mut weights = [0.0; 3];
         weights[lobe] = 1.0;
-        Self { weights, index: USUAL_INDEX }
+        Self { weights, ..Self::default() }
+    }
+}
+
+impl Lobes {
+    /// All of it glass.
+    pub(super) fn glass() -> Self {
+        Self::one(2)
+    }
+
+    /// This share of light mirrored, in the material's one colour, and the rest scattered.
+    pub(super) fn mirrored(share: f64) -> Self {
+        Self { weights: [1.0 - share, share, 0.0], ..Self::default() }
+    }
+}
+
+impl Default for Lobes {
+    fn default() -> Self {
+        Self { weights: [0.0; 3], index: USUAL_INDEX, own_colors: false, in_color: [false; 3] }
     }
 }
 
@@ -78,23 +100,44 @@ impl Reader<'_> {
         self.shares(fields)
     }
 
-    /// `DIFF`, `SPEC` or `REFR` as a word of its own.
+    /// `DIFF`, `SPEC` or `REFR` as a word of its own, or a key of a lobe with nothing after it.
     fn lobe_of_flags(&mut self, fields: &mut Fields<'_>) -> Option<Lobes> {
         let mut lobes = None;
         for (lobe, flag) in ["DIFF", "SPEC", "REFR"].into_iter().enumerate() {
             if let Some(field) = self.log.take(fields, flag) {
                 self.log.mapped(&field.span, LOBE_NAMES[lobe]);
-                lobes = Some(Lobes::one(lobe));
+                lobes = Some(Lobes { own_colors: field.guessed, ..Lobes::one(lobe) });
             }
         }
+        for (lobe, role) in [(0, "diffuse"), (1, "specular or share"), (1, "mirror"), (2, "glass")] {
+            let Some(field) = self.log.take_where(fields, role, Field::is_flag) else { continue };
+            if field.text().eq_ignore_ascii_case("false") {
+                self.log.mapped(&field.span, "a lobe that it does not have");
+                continue;
+            }
+            let lobe = self.clear_if_it_bends(lobe, fields, &field);
+            self.log.mapped(&field.span, LOBE_NAMES[lobe]);
+            lobes = Some(Lobes { own_colors: true, ..Lobes::one(lobe) });
+        }
         lobes
+    }
+
+    /// A polished surface with an index of refraction lets light in.
+    fn clear_if_it_bends(&mut self, lobe: usize, fields: &Fields<'_>, flag: &Field<'_>) -> usize {
+        let bends = fields.peek("index").is_some_and(|index| index.number(0) > 1.0);
+        if lobe != 1 || !bends {
+            return lobe;
+        }
+        let help = "the index of refraction says so; without it, it would be a mirror";
+        self.log.differs(format!("`{}` was taken as glass", flag.key), &flag.span, help);
+        2
     }
 
     fn lobes_of_prop(&mut self, prop: &Field<'_>) -> Lobes {
         match PROPS.iter().find(|(known, _)| *known == prop.text()) {
             Some((_, weights)) => {
                 self.log.approximated(&prop.span, "the weights that the program gives this name");
-                Lobes { weights: *weights, index: PROP_INDEX }
+                Lobes { weights: *weights, index: PROP_INDEX, ..Lobes::default() }
             }
             None => {
                 self.log.dropped(&prop.span, "an unknown name, taken as diffuse");
@@ -153,23 +196,14 @@ impl Reader<'_> {
             self.log.bad_value("the weights of `type` are all 0", &field.span, help);
             return Lobes::one(0);
         }
-        Lobes { weights, index: 1.0 }
+        Lobes { weights, index: 1.0, ..Lobes::default() }
     }
 
     /// One number for each lobe, under the names that a dozen programs give them.
     fn shares(&mut self, fields: &mut Fields<'_>) -> Option<Lobes> {
-        let is_share = |fields: &Fields<'_>, role: &str| {
-            fields.peek(role).is_some_and(|field| !field.is_vector() && field.word.is_none())
-        };
-        let mut mirror = if is_share(fields, "mirror") { self.log.take(fields, "mirror") } else { None };
-        let mut glass = if is_share(fields, "glass") { self.log.take(fields, "glass") } else { None };
-        if mirror.is_none() {
-            mirror = self.log.take_any(fields, &["reflection"]);
-        }
-        if mirror.is_none() && is_share(fields, "specular or share") {
-            mirror = self.log.take(fields, "specular or share");
-        }
-        let diffuse = if is_share(fields, "diffuse") { self.log.take(fields, "diffuse") } else { None };
+        let mut share = |role| self.log.take_where(fields, role, Field::is_share);
+        let mirror = share("mirror").or_else(|| share("reflection")).or_else(|| share("specular or share"));
+        let (mut glass, diffuse) = (share("glass"), share("diffuse"));
         if mirror.is_none() && diffuse.is_none() && glass.is_none() {
             return None;
         }
@@ -186,14 +220,21 @@ impl Reader<'_> {
         // The second number of one program's `transmissive 0.9 1.5` is the index.
         let index =
             glass.as_ref().and_then(|field| field.numbers.get(1)).map_or(USUAL_INDEX, |index| index.value);
-        // Without a share of its own the diffuse lobe takes what the others leave.
-        let others = weights[1].unwrap_or(0.0) + weights[2].unwrap_or(0.0);
-        let weights = [
-            weights[0].unwrap_or((1.0 - others).max(0.0)),
-            weights[1].unwrap_or(0.0),
-            weights[2].unwrap_or(0.0),
-        ];
-        Some(if weights.iter().sum::<f64>() > 0.0 { Lobes { weights, index } } else { Lobes::one(0) })
+        // A lobe with a colour and no share has the share that is in its colour; without either it has none, but the
+        // diffuse one takes what the others leave.
+        let in_color = |role| {
+            let color = fields.peek_where(role, Field::is_vector).map(Field::vector);
+            color.map_or(0.0, |color| color.max_element().clamp(0.0, 1.0))
+        };
+        let is_missing = weights.map(|weight| weight.is_none());
+        let mirror = weights[1].unwrap_or_else(|| in_color("mirror"));
+        let glass = weights[2].unwrap_or_else(|| in_color("glass"));
+        let weights = [weights[0].unwrap_or((1.0 - mirror - glass).max(0.0)), mirror, glass];
+        if weights.iter().sum::<f64>() <= 0.0 {
+            return Some(Lobes::one(0));
+        }
+        let in_color = [false, is_missing[1], is_missing[2]];
+        Some(Lobes { weights, index, own_colors: true, in_color })
     }
 
     /// What the lobes make together with the colours: one for all of them, or in some dialects one for each.
@@ -208,13 +249,17 @@ impl Reader<'_> {
         let index =
             self.index(fields, &["index", "refr", "refractRate", "refraction"]).unwrap_or(lobes.index);
         let [_, mirror, glass] = lobes.weights;
-        let has_own = dialect == Dialect::Factors || fields.has("glass");
+        let has_own = lobes.own_colors || dialect == Dialect::Factors || fields.has("glass");
         let mirror_color = match mirror > 0.0 && has_own {
             true => self.lobe_color(fields, &["mirror", "specular", "specular or share"], color),
             false => color,
         };
         let glass_color = match glass > 0.0 && has_own {
             true => self.lobe_color(fields, &["glass"], color),
+            false => color,
+        };
+        let hue_of = |lobe: usize, color: DVec3| match lobes.in_color[lobe] {
+            true => color / color.max_element(),
             false => color,
         };
         let roughness = if mirror > 0.0 || glass > 0.0 { self.roughness(fields) } else { 0.0 };
@@ -230,8 +275,8 @@ impl Reader<'_> {
         let sum: f64 = lobes.weights.iter().sum();
         let parts = [
             Look::Diffuse { color: Texture::plain(color) },
-            shiny(mirror_color, roughness),
-            clear(index, glass_color),
+            shiny(hue_of(1, mirror_color), roughness),
+            clear(index, hue_of(2, glass_color)),
         ];
         let weighted = lobes.weights.into_iter().zip(parts).map(|(weight, look)| (weight / sum, look));
         mixed(weighted.collect())

@@ -2,6 +2,7 @@
 
 mod colors;
 mod dress;
+mod fresnel;
 mod lobes;
 mod solid;
 mod typed;
@@ -13,6 +14,9 @@ use crate::convert::model::{Look, Material, Texture};
 use crate::convert::parse::{Block, Span};
 use crate::convert::words::{MATERIAL, MATERIALS, blocks};
 use crate::math::DVec3;
+
+/// Names of blocks whose fields alone tell what they are.
+const USUAL_NAMES: &[&str] = &["Material", "PhongMaterial", "GenericMaterial"];
 
 /// The index of refraction of glass where a file does not say it.
 const USUAL_INDEX: f64 = 1.5;
@@ -51,6 +55,9 @@ impl Reader<'_> {
             self.guess_block(&name, "a material, by its fields", &block.head);
             return self.plain_look(block, notes);
         };
+        if kind == blocks::Material::Plain && !USUAL_NAMES.contains(&name.as_str()) {
+            self.guess_block(&name, "a material, by its fields", &block.head);
+        }
         match kind {
             blocks::Material::Plain => self.plain_look(block, notes),
             blocks::Material::Solid(solid) => self.solid_look(block, solid, notes),
@@ -69,8 +76,13 @@ impl Reader<'_> {
         };
         let mut fields = self.log.fields(block, &MATERIAL);
         self.log.mapped(&fields.head, "a material");
+        let has_factors = ["diffuse factor", "specular factor"].iter().any(|role| fields.has(role));
         let look = if dialect == Dialect::Arsenal {
             self.arsenal_look(&mut fields, notes)
+        } else if let Some(lobes) = self.lobes_of_fresnel(&mut fields) {
+            self.lobed_look(&mut fields, lobes, dialect, notes)
+        } else if has_factors {
+            self.glossy_look(&mut fields, notes)
         } else if let Some(lobes) = self.lobes(&mut fields) {
             self.lobed_look(&mut fields, lobes, dialect, notes)
         } else {
@@ -94,6 +106,8 @@ impl Reader<'_> {
         }
         let aside = "has no counterpart in the scene language";
         self.log.put_aside(&mut fields, &["aside"], aside);
+        let ambient = "part of the ambient light, for which an environment stands";
+        self.log.put_aside(&mut fields, &["ambient"], ambient);
         self.log.finish(fields);
         look
     }
@@ -154,9 +168,9 @@ impl Reader<'_> {
 
     /// The colour of a surface, white where none is said.
     fn one_color(&mut self, fields: &mut Fields<'_>) -> DVec3 {
-        let diffuse = fields.peek("diffuse").is_some_and(Field::is_vector);
+        let diffuse = fields.peek_where("diffuse", Field::is_vector).is_some();
         let field = match self.log.take(fields, "color") {
-            None if diffuse => self.log.take(fields, "diffuse"),
+            None if diffuse => self.log.take_where(fields, "diffuse", Field::is_vector),
             field => field,
         };
         match field {

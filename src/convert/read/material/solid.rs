@@ -8,6 +8,9 @@ use crate::convert::read::Reader;
 use crate::convert::words::blocks::Solid;
 use crate::convert::words::{SOLID, TRANSFORM};
 
+/// The most blends inside one another; looking through them takes time that doubles with each.
+const MOST_BLENDS: usize = 8;
+
 impl Reader<'_> {
     /// `Checkerboard { [Transform { .. }] materialIndex i materialIndex j }`, and its relatives with noise.
     ///
@@ -59,15 +62,26 @@ impl Reader<'_> {
         self.log.mapped(&field.span, "one of the two materials");
         let (index, count) = (field.number(0).trunc() as i64, self.materials.len());
         let valid = usize::try_from(index).ok().filter(|index| *index < count && field.sound);
-        // Blends of blends would nest without bound, and a plane could not be partly a lamp.
-        let is_plain = |look: &Look| !matches!(look, Look::Solid { .. } | Look::Emissive { .. });
-        let valid = valid.filter(|&index| is_plain(&self.materials[index].look));
-        if valid.is_none() {
-            self.log.dropped(&field.span, "no plain material further up");
+        let Some(index) = valid else {
+            self.log.dropped(&field.span, "no material further up");
             let at = field.span.clone().into();
             self.log.notes.note(Mistake::IndexOutOfRange { index, count, at });
-        }
-        valid
+            return None;
+        };
+        let why = match &self.materials[index].look {
+            Look::Emissive { .. } => "a surface that shines in places only",
+            _ if self.depth_of_blends(index) >= MOST_BLENDS => "so many blends of blends",
+            _ => return Some(index),
+        };
+        self.log.dropped(&field.span, "no material that can be blended");
+        self.log.not_convertible("this part of a solid texture", &field.span, why);
+        None
+    }
+
+    /// How many blends are inside one another in a material; a plain one has none. Blends refer backwards only.
+    fn depth_of_blends(&self, index: usize) -> usize {
+        let parts = self.materials[index].look.parts();
+        parts.map(|part| 1 + self.depth_of_blends(part)).max().unwrap_or(0)
     }
 
     /// How many times the transform of a texture magnifies; all else about it is lost.

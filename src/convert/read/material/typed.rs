@@ -3,7 +3,7 @@
 use super::colors::{exponent_of, fitted_phong};
 use super::lobes::mixed;
 use super::{USUAL_INDEX, clear, shiny};
-use crate::convert::fields::Fields;
+use crate::convert::fields::{Field, Fields};
 use crate::convert::model::{Look, Texture};
 use crate::convert::parse::Block;
 use crate::convert::read::Reader;
@@ -72,26 +72,27 @@ impl Reader<'_> {
     }
 
     /// A glossy coat over a matt base, and as much metal as `metallic` says.
-    fn glossy_look(&mut self, fields: &mut Fields<'_>, notes: &mut Vec<String>) -> Look {
+    pub(super) fn glossy_look(&mut self, fields: &mut Fields<'_>, notes: &mut Vec<String>) -> Look {
         let metallic =
             self.log.number(fields, "metallic", "the share of metal").map_or(0.0, |it| it.clamp(0.0, 1.0));
-        let weights = ["diffuse", "specular or share"].map(|role| {
-            let is_share = fields.peek(role).is_some_and(|field| !field.is_vector() && field.word.is_none());
-            let field = if is_share { self.log.take(fields, role) } else { None };
-            field.map(|field| {
-                self.log.approximated(&field.span, "a factor of its colour");
-                field.number(0).clamp(0.0, 1.0)
-            })
-        });
+        let weights =
+            [["diffuse", "diffuse factor"], ["specular or share", "specular factor"]].map(|roles| {
+                let mut share = |role| self.log.take_where(fields, role, Field::is_share);
+                share(roles[0]).or_else(|| share(roles[1])).map(|field| {
+                    self.log.approximated(&field.span, "a factor of its colour");
+                    field.number(0).clamp(0.0, 1.0)
+                })
+            });
         let color = self.one_color(fields);
-        let specular = match self.log.take(fields, "specular") {
-            Some(field) => {
-                self.log.approximated(&field.span, "the colour of a `phong` highlight");
-                self.reflectance(&field)
-            }
-            None => DVec3::splat(0.04), // of plastic
+        let tint = self.log.take(fields, "specular").map(|field| {
+            self.log.approximated(&field.span, "the colour of a `phong` highlight");
+            self.reflectance(&field)
+        });
+        let specular = match (tint, weights[1]) {
+            (Some(tint), weight) => tint * weight.unwrap_or(1.0),
+            (None, Some(weight)) => DVec3::splat(weight),
+            (None, None) => DVec3::splat(0.04), // of plastic
         };
-        let specular = weights[1].map_or(specular, DVec3::splat);
         let shininess = self.log.number(fields, "shininess", "`shininess`");
         let roughness = self.roughness(fields);
         let exponent = shininess.unwrap_or_else(|| exponent_of(roughness.max(0.1))).clamp(0.0, 1e5);

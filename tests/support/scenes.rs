@@ -1,0 +1,49 @@
+//! From the text of a scene to a film, without a file system.
+
+use snell::diag::Problems;
+use snell::render::film::Film;
+use snell::render::{Settings, Stop};
+use snell::source::{Memory, SourceMap};
+
+/// What became of a text.
+pub struct Told {
+    /// The picture, unless something is wrong.
+    pub film: Option<Film>,
+    /// The report, a line for each problem.
+    pub report: String,
+}
+
+/// Renders `passes` passes of a scene, with parameters set as on the command line.
+pub fn render_text(text: &str, files: &Memory, sets: &[(&str, &str)], passes: u32) -> Told {
+    let mut sources = SourceMap::default();
+    let main = sources.add("scene.snell".into(), "scene.snell".into(), text.trim_start().into()).unwrap();
+    let sets: Vec<_> = sets.iter().map(|(name, value)| (name.to_string(), value.to_string())).collect();
+    let mut problems = Problems::default();
+    let film = film(&mut sources, files, main, &sets, passes, &mut problems);
+    let film = film.filter(|_| !problems.has_errors());
+    let report = problems.into_report(&sources);
+    Told { film, report: report.render_short() }
+}
+
+fn film(
+    sources: &mut SourceMap,
+    files: &Memory,
+    main: snell::source::FileId,
+    sets: &[(String, String)],
+    passes: u32,
+    problems: &mut Problems,
+) -> Option<Film> {
+    let scene = snell::compile(sources, files, main, sets, problems)?;
+    let loaded = snell::load::load(&scene, sources, files, problems)?;
+    let camera = scene.cameras.first()?;
+    let plan = snell::plan::plan(&loaded, Some(camera), None);
+    let lowered = snell::lower::lower(&loaded, &plan, camera, files, problems)?;
+    let stop = Stop { passes: Some(passes), ..Stop::default() };
+    let settings = Settings { method: lowered.method, max_depth: plan.depth, seed: 1, stop, crop: None };
+    Some(snell::render::render(&lowered.world, &settings, &()).film)
+}
+
+/// The bits of every pixel's mean.
+pub fn film_bits(film: &Film) -> Vec<[u32; 3]> {
+    film.mean().iter().map(|pixel| pixel.to_array().map(f32::to_bits)).collect()
+}
