@@ -49,7 +49,7 @@ impl Lowering<'_> {
                 let sides = if *two_sided { 2.0 } else { 1.0 };
                 let radiance = radiance(light.brightness.value, light.color, PI * across.length() * sides);
                 let frame = DMat3::from_cols(*edge_u, *edge_v, across / across.length().sqrt());
-                self.solids.push(Solid {
+                self.shapes.solids.push(Solid {
                     kind: SolidKind::Disk,
                     world_from_object: DAffine3::from_mat3_translation(frame, *center - self.center),
                     texture_from_object: DAffine3::IDENTITY,
@@ -67,7 +67,7 @@ impl Lowering<'_> {
                 let world_from_object =
                     DAffine3::from_translation(*center - self.center) * DAffine3::from_scale(scale);
                 let texture_from_object = DAffine3::IDENTITY;
-                self.solids.push(Solid {
+                self.shapes.solids.push(Solid {
                     kind: SolidKind::Sphere,
                     world_from_object,
                     texture_from_object,

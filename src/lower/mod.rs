@@ -8,6 +8,7 @@ pub mod curve;
 mod daylight;
 mod error;
 mod heightfield;
+mod instance;
 mod lens;
 mod light;
 mod material;
@@ -22,12 +23,14 @@ use crate::load::Loaded;
 use crate::math::DVec3;
 use crate::plan::Plan;
 use crate::render::camera::Camera;
+use crate::render::geometry::Shapes;
 use crate::render::integrator::{ClassicSettings, Shading};
-use crate::render::shape::{Mesh, Solid, SourceId};
+use crate::render::shape::SourceId;
 use crate::render::world::{Parts, World};
 use crate::render::{GatherRadius, HybridSettings, Method, PpmSettings};
 use crate::source::{Files, Span};
 pub use error::LowerError;
+use instance::Instances;
 use material::Materials;
 pub use place::object_bounds;
 
@@ -60,8 +63,8 @@ pub fn lower(
         loaded,
         center,
         materials: Materials::new(loaded, files),
-        meshes: Vec::new(),
-        solids: Vec::new(),
+        shapes: Shapes::default(),
+        instances: Instances::count(loaded),
         sources: Vec::new(),
     };
     for object in &loaded.scene.objects {
@@ -76,14 +79,25 @@ pub fn lower(
     };
     let camera = camera::camera(camera, pixel, loaded, center).map_err(|error| problems.push(error)).ok();
 
-    let Lowering { materials, meshes, solids, sources, .. } = lowering;
+    let Lowering { materials, shapes, sources, .. } = lowering;
+    let Shapes { meshes, shared, instances, solids } = shapes;
     let (materials, textures, failed) = materials.finish();
     let any_failed = !failed.is_empty();
     failed.into_iter().for_each(|error| problems.push(error));
     let camera = camera.filter(|_| !any_failed)?;
     let method = method(plan, &loaded.scene.render.classic, &camera);
     let camera = Camera::new(camera.spec);
-    let world = World::new(Parts { meshes, solids, materials, textures, lights, environment, camera });
+    let world = World::new(Parts {
+        meshes,
+        shared,
+        instances,
+        solids,
+        materials,
+        textures,
+        lights,
+        environment,
+        camera,
+    });
     Some(Lowered { world, method, sources, center })
 }
 
@@ -124,8 +138,8 @@ struct Lowering<'a> {
     loaded: &'a Loaded<'a>,
     center: DVec3,
     materials: Materials<'a>,
-    meshes: Vec<Mesh>,
-    solids: Vec<Solid>,
+    shapes: Shapes,
+    instances: Instances,
     sources: Vec<Span>,
 }
 

@@ -2,12 +2,12 @@
 
 use super::bsdf::{Bsdf, Material, Materials, Relief, facing};
 use super::camera::Camera;
-use super::geometry::{Geometry, Hit, SurfacePoint};
+use super::geometry::{Geometry, Hit, Shapes, SurfacePoint};
 use super::light::{Environment, Light, Lights, Sky};
 use super::media::Media;
 use super::sampler::hash_unit;
 use super::shape::solid::orthogonal_tangent;
-use super::shape::{Mesh, Solid};
+use super::shape::{Instance, Mesh, Solid};
 use super::texture::Texture;
 use crate::math::{Ray, Rgb, Vec3};
 use std::time::Instant;
@@ -16,6 +16,10 @@ use std::time::Instant;
 pub struct Parts {
     /// Triangles.
     pub meshes: Vec<Mesh>,
+    /// Meshes that instances place.
+    pub shared: Vec<Mesh>,
+    /// Their places.
+    pub instances: Vec<Instance>,
     /// Exact shapes.
     pub solids: Vec<Solid>,
     /// What shapes refer to.
@@ -48,7 +52,8 @@ impl World {
     /// Builds the tree over the shapes, a light for each primitive that emits, and the table to choose among lights.
     pub fn new(parts: Parts) -> Self {
         let start = Instant::now();
-        let geometry = Geometry::build(parts.meshes, parts.solids);
+        let Parts { meshes, shared, instances, solids, .. } = parts;
+        let geometry = Geometry::new(Shapes { meshes, shared, instances, solids });
         let materials = Materials::new(parts.materials, parts.textures);
         let lights = Lights::new(parts.lights, parts.environment.map(Sky::new), &geometry, &materials);
         let build_seconds = start.elapsed().as_secs_f64();

@@ -84,6 +84,8 @@ pub fn camera(position: Vec3, direction: Vec3, tan: f32, side: u32) -> Camera {
 pub fn empty(camera: Camera) -> Parts {
     Parts {
         meshes: Vec::new(),
+        shared: Vec::new(),
+        instances: Vec::new(),
         solids: Vec::new(),
         materials: Vec::new(),
         textures: Vec::new(),

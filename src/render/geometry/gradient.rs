@@ -20,6 +20,9 @@ impl Geometry {
         let along = [surface.tangent, surface.ns.cross(surface.tangent)];
         match self.prim(surface.prim) {
             Prim::Triangle(mesh, corners) => triangle_gradient(mesh, corners, along),
+            Prim::Placed(placed, mesh, corners) => {
+                triangle_gradient(mesh, corners, along.map(|dir| placed.vector_mesh(dir)))
+            }
             Prim::Solid(_) => self.solid_gradient(surface, along),
         }
     }

@@ -278,9 +278,11 @@ fn parallelograms(lights: &[Light], geometry: &Geometry) -> FxHashMap<PrimId, Pa
 /// The primitives that emit and that points can be drawn from.
 fn shining_prims(geometry: &Geometry, materials: &Materials) -> Vec<PrimId> {
     let shines = |material| !materials.emission(material).is_none();
-    let triangles = geometry
-        .mesh_prims()
-        .filter(|(mesh, _)| shines(mesh.material))
+    let meshes = geometry.mesh_prims().map(|(mesh, prims)| (mesh.material, prims));
+    let instances = geometry.instance_prims().map(|(instance, prims)| (instance.material, prims));
+    let triangles = meshes
+        .chain(instances)
+        .filter(|(material, _)| shines(*material))
         .flat_map(|(_, prims)| prims.map(PrimId));
     let solids = geometry
         .solid_prims()

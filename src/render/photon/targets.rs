@@ -50,6 +50,12 @@ impl Targets {
                 items.extend(mesh.triangles.iter().map(|corners| triangle_ball(mesh, *corners, albedo)));
             }
         }
+        for (instance, bounds) in geometry.instance_bounds() {
+            let albedo = targets.albedo_of(instance.material, materials);
+            if albedo > 0.0 {
+                items.push(Ball { center: bounds.center(), radius: bounds.radius(), albedo });
+            }
+        }
         for (solid, prim) in geometry.solid_prims() {
             let albedo = targets.albedo_of(solid.material, materials);
             if albedo > 0.0 {
