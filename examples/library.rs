@@ -40,7 +40,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let region = outcome.film.region();
     let (width, height, radiance) = (region.width, region.height, outcome.film.mean());
-    let frame = Frame { width, height, radiance, standard_error: Vec::new(), facts: Vec::new() };
+    let (standard_error, sample_counts, facts) = (Vec::new(), Vec::new(), Vec::new());
+    let frame = Frame { width, height, radiance, standard_error, sample_counts, facts };
     let mut bytes = Cursor::new(Vec::new());
     let display = Display { exposure: Exposure::Auto, tone: Tone::Agx, floor: false };
     snell::output::encode(&mut bytes, Format::Ppm, &frame, &display)?;

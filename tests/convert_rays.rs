@@ -107,7 +107,7 @@ fn disagreements(source: &Scene, snell: &str, path: &Path) -> (Vec<String>, usiz
             let pixel = [x * source.size[0] / SIDE, y * source.size[1] / SIDE];
             let (origin, way) = source.ray(pixel);
             let expected = source.closest_hit(origin, way).map(|t| origin + way * t);
-            let ray = lowered.world.camera.ray(pixel, middle, lens_center);
+            let ray = lowered.world.camera.ray(pixel, middle, lens_center).expect("it sees all around").ray;
             let hit = lowered.world.closest_hit(&ray);
             let found = hit.map(|hit| lowered.center + (ray.o + ray.d * hit.t).as_dvec3());
             hits += usize::from(expected.is_some());

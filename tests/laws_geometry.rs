@@ -2,8 +2,8 @@
 
 use crate::support::*;
 use snell::math::{DAffine3, DMat3, DVec2, DVec3, Ray, Vec2, Vec3};
-use snell::render::geometry::{Geometry, Hit, PrimId, SurfacePoint};
-use snell::render::shape::{Frustum, Mesh, Profile, SolidKind, Torus};
+use snell::render::geometry::{Geometry, Hit, PrimId, Shapes, SurfacePoint};
+use snell::render::shape::{Frustum, Instance, MaterialId, Mesh, Profile, SolidKind, SourceId, Torus};
 
 #[test]
 fn no_ray_escapes_a_closed_mesh() {
@@ -565,6 +565,119 @@ fn nothing_lies_between_a_floor_and_the_sides_of_a_small_box_that_face_it() {
                     end.p
                 );
             }
+        }
+    }
+}
+
+/// A mesh in a frame of its own, placed once.
+fn placed(mesh: Mesh, world_from_mesh: DAffine3) -> Geometry {
+    let instance = Instance { mesh: 0, world_from_mesh, material: MaterialId(3), source: SourceId(5) };
+    Geometry::new(Shapes { shared: vec![mesh], instances: vec![instance], ..Shapes::default() })
+}
+
+/// Turned, squeezed, mirrored, far away, tiny and huge.
+fn placements() -> Vec<(&'static str, DAffine3)> {
+    let turned = DAffine3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 1.0);
+    let at = |x, y, z| DAffine3::from_translation(DVec3::new(x, y, z));
+    vec![
+        ("as it is", DAffine3::IDENTITY),
+        ("turned", at(0.3, -7.0, 2.0) * turned),
+        ("squeezed and mirrored", turned * DAffine3::from_scale(DVec3::new(3.0, 0.2, -1.0)) * turned),
+        ("tiny", at(1e-6, 0.0, 2e-6) * turned * DAffine3::from_scale(DVec3::splat(1e-6))),
+        ("huge", turned * DAffine3::from_scale(DVec3::splat(1e6))),
+        ("far", at(148_376.0, 1234.0, -223_423.0) * turned * DAffine3::from_scale(DVec3::splat(8.0))),
+    ]
+}
+
+#[test]
+fn an_instance_that_is_not_moved_changes_no_bit() {
+    for (name, mesh, center) in closed_meshes() {
+        let instance = placed(mesh.clone(), DAffine3::IDENTITY);
+        let copy = scene(mesh.clone());
+        let mut random = Random(29);
+        for i in 0..5_000 {
+            let ray = aimed_ray(&mesh, center, i, &mut random);
+            let (hit, other) = (instance.closest_hit(&ray), copy.closest_hit(&ray));
+            assert_eq!(bits(hit), bits(other), "{name}: {ray:?}");
+            let (Some(hit), Some(other)) = (hit, other) else { continue };
+            let (point, expected) = (instance.surface_point(&ray, &hit), copy.surface_point(&ray, &other));
+            assert_eq!((point.p, point.n, point.p_object), (expected.p, expected.n, expected.p_object));
+            assert_eq!((point.material, point.source), (MaterialId(3), SourceId(5)));
+        }
+    }
+}
+
+#[test]
+fn no_ray_escapes_a_closed_instance() {
+    for (name, world_from_mesh) in placements() {
+        let (positions, triangles) = cube(16);
+        let shape = mesh(positions, triangles);
+        let instance = placed(shape.clone(), world_from_mesh);
+        let to_world = |p: Vec3| world_from_mesh.transform_point3(p.as_dvec3());
+        let mut random = Random(30);
+        for i in 0..20_000 {
+            let ray = aimed_ray(&shape, Vec3::ZERO, i, &mut random);
+            let d = world_from_mesh.transform_vector3(ray.d.as_dvec3()).as_vec3();
+            let ray = Ray::new(to_world(ray.o).as_vec3(), d);
+            let hit = instance.closest_hit(&ray);
+            assert!(hit.is_some(), "{name}: {ray:?}");
+            // The parameter means the same in both frames.
+            let (t, point) = (hit.map_or(0.0, |hit| hit.t), instance.surface_point(&ray, &hit.unwrap()));
+            let off = ray.o.as_dvec3() + ray.d.as_dvec3() * f64::from(t) - point.p.as_dvec3();
+            let size = (point.p - ray.o).length() + ray.o.length();
+            assert!(off.length() <= 1e-5 * f64::from(size), "{name}: {off}");
+        }
+    }
+}
+
+#[test]
+fn rays_leave_instances_cleanly() {
+    for (name, world_from_mesh) in placements() {
+        let (positions, triangles) = sphere(40, 40, |_, _| 1.0);
+        let geometry = placed(mesh(positions, triangles), world_from_mesh);
+        let center = world_from_mesh.translation.as_vec3();
+        let scale = world_from_mesh.matrix3.determinant().abs().cbrt() as f32;
+        let found = self_hits_and_leaks(&geometry, center, scale, |point, dir| point.spawn(dir));
+        assert_eq!(found, (0, 0), "{name}");
+    }
+}
+
+#[test]
+fn instances_and_copies_agree_on_areas_normals_and_order() {
+    let (positions, triangles) = sphere(12, 12, |_, _| 1.0);
+    let shape = mesh(positions, triangles);
+    let count = shape.triangles.len() as u32;
+    for (name, world_from_mesh) in placements() {
+        let instance = |material| Instance { mesh: 0, world_from_mesh, material, source: SourceId(0) };
+        let mut copy = shape.clone();
+        copy.positions = shape
+            .positions
+            .iter()
+            .map(|p| world_from_mesh.transform_point3(p.as_dvec3()).as_vec3())
+            .collect();
+        if world_from_mesh.matrix3.determinant() < 0.0 {
+            copy.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+        }
+        let shapes = Shapes {
+            meshes: vec![copy],
+            shared: vec![shape.clone()],
+            instances: vec![instance(MaterialId(1)), instance(MaterialId(2))],
+            solids: vec![solid(SolidKind::Sphere, DAffine3::from_translation(DVec3::splat(9.0)))],
+        };
+        let geometry = Geometry::new(shapes);
+        assert_eq!(geometry.prim_count(), 3 * count + 1);
+        let materials: Vec<_> =
+            geometry.instance_prims().map(|(instance, prims)| (instance.material.0, prims.start)).collect();
+        assert_eq!(materials, [(1, count), (2, 2 * count)]);
+        let far = world_from_mesh.translation.abs().max_element()
+            / world_from_mesh.matrix3.determinant().abs().cbrt();
+        let tolerance = 1e-4 + 1e-6 * far;
+        for i in 0..count {
+            let (copied, placed) = (PrimId(i), PrimId(2 * count + i));
+            assert!((geometry.area(placed) / geometry.area(copied) - 1.0).abs() < tolerance, "{name}");
+            let (a, b) = (Vec2::new(0.3, 0.6), Vec2::new(0.3, 0.6));
+            let (copied, placed) = (geometry.sample_area(copied, a), geometry.sample_area(placed, b));
+            assert!(f64::from(copied.n.dot(placed.n)) > 1.0 - tolerance, "{name}: {} {}", copied.n, placed.n);
         }
     }
 }

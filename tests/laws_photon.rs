@@ -4,8 +4,8 @@ use crate::laws::worlds::{camera, cornell, diffuse, empty, gray, mean, quad, sph
 use snell::math::{Rgb, Vec3};
 use snell::render::bsdf::Material;
 use snell::render::film::Film;
-use snell::render::integrator::Schedule;
 use snell::render::light::{Falloff, Light};
+use snell::render::photon::Schedule;
 use snell::render::photon::{Disc, Neighbor, Photon, PhotonMap};
 use snell::render::shape::MaterialId;
 use snell::render::{Method, Parts, PpmSettings, Settings, Stop, World, render};

@@ -179,6 +179,9 @@ fn extreme_texts_end_in_a_report() {
         "'",
         "@",
         "if a {} else ",
+        "while a ",
+        "-- a ",
+        "<1, ",
     ];
     for piece in repeated {
         check(&format!("snell 1\nlet a = {}", piece.repeat(many / 10)), true);

@@ -93,6 +93,38 @@ pub fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
     Ok(Picture { width, height, pixels })
 }
 
+/// The brightness of each pixel as it is stored, without a curve, cut to [0, 1]: 16 bits of a channel are kept.
+///
+/// # Errors
+/// As [`decode`].
+pub fn brightness(bytes: &[u8]) -> Result<Vec<f32>, PictureError> {
+    size(bytes)?;
+    let image = reader(bytes)?.decode()?.to_luma32f();
+    let bad = image.pixels().filter(|p| !p.0[0].is_finite()).count();
+    match bad {
+        0 => Ok(image.pixels().map(|p| p.0[0].clamp(0.0, 1.0)).collect()),
+        bad => Err(PictureError::NotFinite(bad)),
+    }
+}
+
+/// How much there is of each pixel, in [0, 1], as a linear grey; `None` for a picture that does not say.
+///
+/// # Errors
+/// As [`decode`].
+pub fn alpha(bytes: &[u8]) -> Result<Option<Picture>, PictureError> {
+    size(bytes)?;
+    let image = reader(bytes)?.decode()?;
+    if !image.color().has_alpha() {
+        return Ok(None);
+    }
+    let grey: Vec<[f32; 3]> = image.to_rgba32f().pixels().map(|p| [p.0[3].clamp(0.0, 1.0); 3]).collect();
+    let bad = grey.iter().filter(|p| !p[0].is_finite()).count();
+    if bad > 0 {
+        return Err(PictureError::NotFinite(bad));
+    }
+    Ok(Some(Picture { width: image.width(), height: image.height(), pixels: Pixels::Linear(grey) }))
+}
+
 fn reader(bytes: &[u8]) -> Result<ImageReader<Cursor<&[u8]>>, PictureError> {
     let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()

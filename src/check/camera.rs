@@ -3,8 +3,8 @@
 use super::error::CheckError;
 use super::{Check, Checked};
 use crate::diag::{Problems, did_you_mean};
-use crate::ir::camera::Fov;
-use crate::ir::{Camera, Film, Filter, Focus, Lens};
+use crate::ir::camera::{Fov, Mapping};
+use crate::ir::{Camera, Film, Focus, Lens};
 use crate::math::DVec3;
 use crate::schema::{Type, quoted};
 use crate::source::{Span, Spanned};
@@ -58,8 +58,17 @@ impl Check<'_> {
         self.field_of_view(camera);
         self.film(&camera.film);
         match &camera.lens {
-            Lens::Pinhole { focal_length } => self.focal_length(*focal_length),
-            Lens::Thin { focal_length, radius, focus, blades, .. } => {
+            Lens::Pinhole { focal_length, .. } => self.focal_length(*focal_length),
+            Lens::Thin { focal_length, radius, focus, blades, anamorphic, cat_eye, tilt, .. } => {
+                self.positive("`anamorphic`", *anamorphic, Type::Number);
+                if !(0.0..=2.0).contains(&cat_eye.value) {
+                    let (found, range) = (cat_eye.value.to_string(), "from 0 to 2".to_owned());
+                    let (what, example, used) = ("`cat_eye`", "cat_eye: 0.5".to_owned(), cat_eye.span);
+                    self.report(CheckError::OutOfRange { what, found, range, example, used });
+                }
+                for turn in tilt {
+                    self.turn(*turn);
+                }
                 self.focal_length(*focal_length);
                 if radius.value < 0.0 || !radius.value.is_finite() {
                     let example = "f/2.8";
@@ -80,6 +89,47 @@ impl Check<'_> {
                     self.focus(camera, focus, *focal_length);
                 }
             }
+            Lens::Orthographic { size, .. } => self.positive("what this lens sees", *size, Type::Length),
+            Lens::Panorama { width, height } => {
+                use std::f64::consts::{PI, TAU};
+                self.within("the width of this panorama", *width, Type::Angle, 0.0, TAU, "360deg");
+                self.within("the height of this panorama", *height, Type::Angle, 0.0, PI, "180deg");
+            }
+            Lens::Fisheye { angle, mapping, .. } => self.fisheye(*angle, *mapping),
+            Lens::Prescription { aperture, focus, .. } => {
+                if let Some(aperture) = aperture.filter(|n| n.value <= 0.0) {
+                    let (found, example) = (Type::FNumber.write(aperture.value), "f/4");
+                    let (what, used) = ("the aperture", aperture.span);
+                    self.report(CheckError::NotPositive { what, found, used, example });
+                }
+                if let Some(focus) = focus {
+                    self.focus(camera, focus, None);
+                }
+            }
+        }
+    }
+
+    /// A lens turned by half a right angle or more.
+    fn turn(&mut self, turn: Spanned<f64>) {
+        if turn.value.abs() >= std::f64::consts::FRAC_PI_4 {
+            let (found, range) = (Type::Angle.write(turn.value), "between -45deg and 45deg".to_owned());
+            let (what, example, used) = ("the turn of the lens", "5deg".to_owned(), turn.span);
+            self.report(CheckError::OutOfRange { what, found, range, example, used });
+        }
+    }
+
+    fn fisheye(&mut self, angle: Spanned<f64>, mapping: Mapping) {
+        use std::f64::consts::{PI, TAU};
+        let (most, so) = match mapping {
+            Mapping::Orthographic => (PI, "this lens sees no more than half of the sphere"),
+            Mapping::Stereographic => (TAU * 0.99, "seen behind, things become endlessly large"),
+            Mapping::Equidistant | Mapping::EquisolidAngle => (TAU, "there is no more to see"),
+        };
+        if !(0.0 < angle.value && angle.value <= most) {
+            let found = Type::Angle.write(angle.value);
+            let range = format!("greater than 0deg and at most {}: {so}", Type::Angle.write(most));
+            let (what, example, used) = ("the angle of this lens", "180deg".to_owned(), angle.span);
+            self.report(CheckError::OutOfRange { what, found, range, example, used });
         }
     }
 
@@ -125,7 +175,16 @@ impl Check<'_> {
         }
         self.positive("the width of the sensor", film.sensor, Type::Length);
         self.positive("the width of a pixel by its height", film.pixel_aspect, Type::Number);
-        let (Filter::Box(radius) | Filter::Tent(radius) | Filter::Gaussian(radius)) = film.filter.value;
+        if let Some(Spanned { value: [left, top, right, bottom], span }) = film.crop
+            && film.crop_in_pixels().is_none_or(|[_, _, width, height]| width == 0 || height == 0)
+        {
+            let (what, example) = ("the crop", "crop: { left: 0.25, right: 0.75 }".to_owned());
+            let found = format!("from ({left}, {top}) to ({right}, {bottom})");
+            let range = "wider and higher than a pixel, with `left` before `right` and `top` above `bottom`"
+                .to_owned();
+            self.report(CheckError::OutOfRange { what, found, range, example, used: span });
+        }
+        let radius = film.filter.value.radius();
         if !(0.0 < radius && radius <= WIDEST_FILTER) {
             let (found, range) = (Type::Pixels.write(radius), "greater than 0px and at most 16px".to_owned());
             let (what, example, used) =

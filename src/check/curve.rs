@@ -5,6 +5,7 @@ use super::error::CheckError;
 use crate::ir::{Curve, CurveKind};
 use crate::math::DVec2;
 use crate::schema::Type;
+use crate::source::Span;
 
 /// Pieces into which a cubic is cut to look at it.
 const PIECES: usize = 16;
@@ -78,8 +79,18 @@ impl Check<'_> {
 
     /// Whether there are as many points as the kind of curve needs.
     fn points(&mut self, curve: &Curve, least_of_lines: usize) -> bool {
-        let n = curve.points.len();
-        let (good, wanted) = match curve.kind {
+        self.enough_points(curve.kind, curve.points.len(), least_of_lines, curve.span)
+    }
+
+    /// Whether `n` points are as many as the kind of curve needs.
+    pub(super) fn enough_points(
+        &mut self,
+        kind: CurveKind,
+        n: usize,
+        least_of_lines: usize,
+        used: Span,
+    ) -> bool {
+        let (good, wanted) = match kind {
             CurveKind::Bezier => (n >= 4 && n % 3 == 1, "a chain of cubic Bezier curves takes 3k + 1 points"),
             CurveKind::BezierOneCurve => {
                 (n >= least_of_lines, "a Bezier curve takes at least 2 points, or 3 if closed")
@@ -90,7 +101,7 @@ impl Check<'_> {
         };
         if !good {
             let found = if n == 1 { "is 1".to_owned() } else { format!("are {n}") };
-            let help = match curve.kind {
+            let help = match kind {
                 CurveKind::Bezier if n > 4 => format!(
                     "add {}, or take {} away; `bezier(degree: all, [..])` makes one curve of any number",
                     (4 - n % 3) % 3,
@@ -99,7 +110,7 @@ impl Check<'_> {
                 CurveKind::Bezier => "a start point, then three more for each curve".to_owned(),
                 _ => "add points".to_owned(),
             };
-            self.report(CheckError::CurvePoints { wanted, found, used: curve.span, help });
+            self.report(CheckError::CurvePoints { wanted, found, used, help });
         }
         good
     }

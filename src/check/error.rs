@@ -117,6 +117,17 @@ pub enum CheckError {
         #[label("this object")]
         object: Span,
     },
+    #[error("a scene has one sky, and this is the second")]
+    #[diagnostic(
+        code(snell::check::second_sky),
+        help("keep one of them: an `environment`, or a `light sun_sky`")
+    )]
+    SecondSky {
+        #[label("another sky")]
+        second: Span,
+        #[label("the first")]
+        first: Span,
+    },
 
     // ── Light and matter ───────────────────────────────────────────────────────────────────────────────────────
     #[error("an index of refraction of {found} is not of this world")]
@@ -163,6 +174,50 @@ pub enum CheckError {
         found: u32,
         most: u32,
         #[label("too many here")]
+        used: Span,
+    },
+    #[error("{inner} cannot stand in {outer}")]
+    #[diagnostic(code(snell::check::cannot_hold), help("{help}"))]
+    CannotHold {
+        inner: &'static str,
+        outer: &'static str,
+        help: &'static str,
+        #[label("holds it")]
+        outside: Span,
+        #[label("this one")]
+        used: Span,
+    },
+    #[error("this texture is made of {found} others, and at most {most} are looked up at a point")]
+    #[diagnostic(
+        code(snell::check::too_deep_texture),
+        help(
+            "make it of fewer: what is constant can be multiplied beforehand, the rest painted into one picture"
+        )
+    )]
+    TooDeepTexture {
+        found: u32,
+        most: u32,
+        #[label("too many here")]
+        used: Span,
+    },
+    #[error("{what} may be as bright as {found}: where it is beyond 1 it counts as 1")]
+    #[diagnostic(
+        code(snell::check::may_create_energy),
+        severity(warning),
+        help("scale it so that no channel can be greater than 1")
+    )]
+    MayCreateEnergy {
+        what: &'static str,
+        found: f32,
+        #[label("this sum or product")]
+        used: Span,
+    },
+    #[error("a pane has no inside to {what}")]
+    #[diagnostic(code(snell::check::thin_inside), help("{help}"))]
+    ThinInside {
+        what: &'static str,
+        help: &'static str,
+        #[label("so this means nothing")]
         used: Span,
     },
     #[error("an endless plane has no area to shine from")]

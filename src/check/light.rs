@@ -3,7 +3,7 @@
 use super::Check;
 use super::error::CheckError;
 use super::space::{Meshes, OwnMaterial};
-use crate::ir::light::EnvironmentRadiance;
+use crate::ir::light::{Daylight, EnvironmentRadiance};
 use crate::ir::{Brightness, Environment, Light, LightKind, MaterialKind, Method, Object, ShapeKind};
 use crate::math::{DVec3, Rgb};
 use crate::schema::Type;
@@ -17,6 +17,7 @@ impl Check<'_> {
         }
         self.endless_lights();
         self.environment();
+        self.one_sky();
     }
 
     fn light(&mut self, light: &Light) {
@@ -32,11 +33,83 @@ impl Check<'_> {
                 self.spanned("the edges of this light span no area", edge_u, edge_v, light.span);
             }
             LightKind::Directional { direction } => self.direction("this light", direction),
+            LightKind::Spot { position, direction, angle, blend, .. } => {
+                self.near("the position of this light", Spanned::new(position, light.span));
+                self.direction("this light", direction);
+                self.within("the angle of its cone", angle, Type::Angle, 0.0, std::f64::consts::PI, "30deg");
+                self.part("its `blend`", blend, "0.2");
+            }
+            LightKind::Disk { center, radius, .. } => {
+                self.positive("the radius of this light", radius, Type::Length);
+                self.near("the centre of this light", Spanned::new(center, light.span));
+                self.near("the radius of this light", radius.map(DVec3::splat));
+            }
+            LightKind::SunSky(ref day) => self.daylight(day),
             LightKind::Point { position, .. } => {
                 self.near("the position of this light", Spanned::new(position, light.span))
             }
         }
         self.brightness(light.brightness, light.color, light.span);
+    }
+
+    /// The formula knows the sun above the horizon, in air that is neither empty nor fog.
+    fn daylight(&mut self, day: &Daylight) {
+        self.direction("the way to the sun", day.to_sun);
+        let sine = day.to_sun.value.normalize_or(DVec3::Y).y;
+        if sine <= 0.0 {
+            let degrees = (libm::asin(sine).to_degrees() * 10.0).round() / 10.0;
+            let found = format!("{degrees}deg");
+            let (what, range) = ("the sun's height", "above the horizon".to_owned());
+            let example = "elevation: 30deg".to_owned();
+            self.report(CheckError::OutOfRange { what, found, range, example, used: day.to_sun.span });
+        }
+        self.within("the turbidity", day.turbidity, Type::Number, 1.7, 10.0, "3");
+        self.within("the size of the sun", day.sun_size, Type::Angle, 0.0, 1.6, "0.533deg");
+        for channel in [day.ground.min_component(), day.ground.max_component()] {
+            if !(0.0..=1.0).contains(&channel) {
+                let (what, found) = ("the colour of the ground", channel.to_string());
+                let (range, example) = ("from 0 to 1".to_owned(), "ground: 0.2".to_owned());
+                self.report(CheckError::OutOfRange { what, found, range, example, used: day.to_sun.span });
+                break;
+            }
+        }
+    }
+
+    /// Notes a share outside of [0, 1].
+    pub(super) fn part(&mut self, what: &'static str, share: Spanned<f64>, example: &str) {
+        if !(0.0..=1.0).contains(&share.value) {
+            let (found, range) = (Type::Number.write(share.value), "from 0 to 1".to_owned());
+            let example = example.to_owned();
+            self.report(CheckError::OutOfRange { what, found, range, example, used: share.span });
+        }
+    }
+
+    /// Notes a number that is not greater than `least` or is greater than `most`.
+    pub(super) fn within(
+        &mut self,
+        what: &'static str,
+        number: Spanned<f64>,
+        ty: Type,
+        least: f64,
+        most: f64,
+        example: &str,
+    ) {
+        if !(least < number.value && number.value <= most) {
+            let found = ty.write(number.value);
+            let range = format!("greater than {} and at most {}", ty.write(least), ty.write(most));
+            let example = example.to_owned();
+            self.report(CheckError::OutOfRange { what, found, range, example, used: number.span });
+        }
+    }
+
+    /// Notes a second source of light from everywhere.
+    fn one_sky(&mut self) {
+        let mut skies = self.scene.lights.iter().filter(|light| matches!(light.kind, LightKind::SunSky(_)));
+        let environment = self.scene.environment.as_ref().map(|environment| environment.span);
+        let Some(first) = environment.or_else(|| skies.next().map(|light| light.span)) else { return };
+        if let Some(second) = skies.next().map(|light| light.span) {
+            self.report(CheckError::SecondSky { second, first });
+        }
     }
 
     /// Notes planes that shine: light is drawn from an area, and theirs is endless.

@@ -2,7 +2,7 @@
 
 use super::Check;
 use super::error::CheckError;
-use crate::ir::{RevolveMethod, Shape, ShapeKind};
+use crate::ir::{Heights, Path, RevolveMethod, Shape, ShapeKind};
 use crate::math::DVec3;
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
@@ -64,6 +64,20 @@ impl Check<'_> {
                     self.report(CheckError::OutOfRange { what, found, range, example, used: tube.span });
                 }
             }
+            ShapeKind::Sweep { path, radius, end_radius, tolerance, .. } => {
+                self.positive("the radius of this tube", *radius, Type::Length);
+                self.near("the radius of this tube", radius.map(DVec3::splat));
+                if let Some(tolerance) = tolerance {
+                    self.positive("the tolerance of this sweep", *tolerance, Type::Length);
+                }
+                if let Some(end) = end_radius.filter(|end| end.value < 0.0) {
+                    let (found, range) = (Type::Length.write(end.value), "at least 0m".to_owned());
+                    let (what, example) = ("the radius of its end", "end_radius: 0m".to_owned());
+                    self.report(CheckError::OutOfRange { what, found, range, example, used: end.span });
+                }
+                self.path(path);
+            }
+            ShapeKind::Heightfield { heights, size, .. } => self.heightfield(heights, *size),
             ShapeKind::Mesh { scale, .. } => self.positive("the scale of this mesh", *scale, Type::Number),
             ShapeKind::Revolve { profile, method } => {
                 self.profile(profile);
@@ -71,7 +85,10 @@ impl Check<'_> {
                     self.positive("the tolerance of this revolve", *tolerance, Type::Length);
                 }
             }
-            ShapeKind::Extrude { outline, holes, depth } => {
+            ShapeKind::Extrude { outline, holes, depth, tolerance } => {
+                if let Some(tolerance) = tolerance {
+                    self.positive("the tolerance of this extrude", *tolerance, Type::Length);
+                }
                 self.positive("the depth of this extrude", *depth, Type::Length);
                 self.outline(outline);
                 for hole in holes {
@@ -79,6 +96,34 @@ impl Check<'_> {
                     self.hole(outline, hole);
                 }
             }
+        }
+    }
+
+    /// A path goes somewhere.
+    fn path(&mut self, path: &Path) {
+        if !self.enough_points(path.kind, path.points.len(), 2, path.span) {
+            return;
+        }
+        if path.points.iter().all(|p| *p == path.points[0]) {
+            let what = "all points of this path are one".to_owned();
+            let help = "move them apart; for a ball use a `sphere`";
+            self.report(CheckError::Degenerate { what, used: path.span, help });
+        }
+        let farthest = path.points.iter().fold(DVec3::ZERO, |most, p| most.max(p.abs()));
+        self.near("a point of this path", Spanned::new(farthest, path.span));
+    }
+
+    fn heightfield(&mut self, heights: &Heights, size: Spanned<DVec3>) {
+        for (axis, what) in [(size.value.x, "its width"), (size.value.z, "its depth")] {
+            self.positive(what, Spanned::new(axis, size.span), Type::Length);
+        }
+        self.near("the size of this heightfield", size);
+        if let Heights::Grid { values, span, .. } = heights
+            && let Some(bad) = values.iter().find(|value| !value.is_finite())
+        {
+            let (what, found) = ("a height", bad.to_string());
+            let (range, example) = ("finite".to_owned(), "0.5".to_owned());
+            self.report(CheckError::OutOfRange { what, found, range, example, used: *span });
         }
     }
 

@@ -53,12 +53,14 @@ fn has_volume(kind: &ShapeKind) -> bool {
         | ShapeKind::Box { .. }
         | ShapeKind::Cone { .. }
         | ShapeKind::Torus { .. }
+        | ShapeKind::Sweep { .. }
         | ShapeKind::Mesh { .. }
         | ShapeKind::Revolve { .. }
         | ShapeKind::Extrude { .. } => true,
         ShapeKind::Plane { .. }
         | ShapeKind::Disk { .. }
         | ShapeKind::Quad { .. }
+        | ShapeKind::Heightfield { .. }
         | ShapeKind::Triangle { .. } => false,
     }
 }

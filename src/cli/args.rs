@@ -95,6 +95,8 @@ pub enum Method {
     Pt,
     /// Progressive photon mapping.
     Ppm,
+    /// Path tracing, with caustics from photons.
+    Hybrid,
     /// Recursive ray tracing, with the scene's own settings if it has any.
     Classic,
 }

@@ -74,7 +74,7 @@ fn compare(args: &CompareArgs) -> Result<Exit, String> {
     }
     match args.max_relmse {
         // Not a number is over any limit.
-        Some(limit) if !(metrics.rel_mse <= limit) => {
+        Some(limit) if metrics.rel_mse > limit || metrics.rel_mse.is_nan() => {
             note(format_args!("relMSE {} is above the limit {limit}\n", number(metrics.rel_mse)));
             Ok(Exit::OverLimit)
         }

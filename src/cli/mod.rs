@@ -18,7 +18,9 @@ mod progress;
 mod render;
 mod sequence;
 mod session;
+mod study;
 mod summary;
+mod sweep;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -43,6 +45,8 @@ enum Command {
     Plan(plan::PlanArgs),
     /// Measure how far a picture is from another, and whether noise explains it
     Compare(compare::CompareArgs),
+    /// Measure what accuracy costs in time: error against seconds, as a table and a page with plots
+    Study(study::StudyArgs),
     /// Turn an arsenal.txt scene into a .snell scene
     Convert(convert::ConvertArgs),
     /// Explain a word of the language, or list what a scene defines
@@ -87,6 +91,7 @@ pub fn run() -> ExitCode {
         Command::Fmt(args) => fmt::run(&args),
         Command::Plan(args) => plan::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Study(args) => study::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Doc(args) => doc::run(&args),
         Command::Explain(args) => explain::run(&args),

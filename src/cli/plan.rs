@@ -56,6 +56,7 @@ fn table(plan: &Plan, session: &Session) -> String {
     let method = match plan.method {
         crate::ir::Method::Pt => "path tracing",
         crate::ir::Method::Ppm => "progressive photon mapping",
+        crate::ir::Method::Hybrid => "path tracing with caustics from photons (hybrid)",
         crate::ir::Method::Classic => "recursive ray tracing",
     };
     let _ = writeln!(out, "method: {method}, {}\n", plan.why);

@@ -1,9 +1,9 @@
 //! The progress bar: passes, error so far, time left. Only on a terminal; elsewhere a line now and then.
 
 use super::{interrupt, note};
+use crate::render::film::ErrorEstimate;
 use crate::render::{Monitor, Progress, Stop};
 use indicatif::{ProgressBar, ProgressStyle};
-use std::cell::Cell;
 use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::time::Duration;
@@ -15,9 +15,20 @@ const FIRST_LINE_AFTER: f64 = 10.0;
 pub struct Bar {
     bar: Option<ProgressBar>,
     stop: Stop,
-    next_line: Mutex<Cell<f64>>,
+    state: Mutex<State>,
     quiet: bool,
 }
+
+/// What was said last.
+struct State {
+    /// Seconds after which the next line is due where no terminal is.
+    next_line: f64,
+    /// The last estimate of the error, and the passes it was made after.
+    estimate: Option<(u32, ErrorEstimate)>,
+}
+
+/// The first pass after which a look at the error is worth its time; then at doublings.
+const FIRST_LOOK: u32 = 4;
 
 impl Bar {
     /// A bar for a render that stops by `stop`.
@@ -29,7 +40,8 @@ impl Bar {
             bar.enable_steady_tick(Duration::from_millis(200));
             bar
         });
-        Self { bar, stop, next_line: Mutex::new(Cell::new(FIRST_LINE_AFTER)), quiet }
+        let state = State { next_line: FIRST_LINE_AFTER, estimate: None };
+        Self { bar, stop, state: Mutex::new(state), quiet }
     }
 
     /// Takes the bar off the terminal.
@@ -38,15 +50,37 @@ impl Bar {
             bar.finish_and_clear();
         }
     }
+}
 
-    /// The share of the work that is done, by whichever stop comes first.
-    fn done(&self, progress: &Progress<'_>, error: Option<f64>) -> f64 {
-        let passes = progress.film.passes();
-        let by_passes = self.stop.passes.map(|most| f64::from(passes) / f64::from(most));
-        let by_time = self.stop.seconds.map(|most| progress.seconds / most);
-        // The squared error falls as 1 / passes.
-        let by_error = self.stop.error.zip(error).map(|(target, error)| (target / error) * (target / error));
-        [by_passes, by_time, by_error].into_iter().flatten().fold(0.0, f64::max).min(1.0)
+/// The seconds left until the first of the stops, as an interval that narrows as the estimate of the error does;
+/// `None` before anything is known.
+fn left(
+    stop: &Stop,
+    passes: u32,
+    seconds: f64,
+    estimate: Option<(u32, ErrorEstimate)>,
+) -> Option<(f64, f64)> {
+    let per_pass = seconds / f64::from(passes.max(1));
+    let until = |needed: f64| ((needed - f64::from(passes)) * per_pass).max(0.0);
+    let by_passes = stop.passes.map(|most| until(f64::from(most))).map(|s| (s, s));
+    let by_time = stop.seconds.map(|most| (most - seconds).max(0.0)).map(|s| (s, s));
+    let by_error = stop.error.zip(estimate).map(|(target, (at, estimate))| {
+        // The render stops when the upper end of the interval is below the target. That end may come closer to the
+        // estimate until then, and the estimate may move within its interval.
+        let needed = |error: f64| until(f64::from(at) * (error / target).powi(2));
+        let (low, high) = estimate.interval.unwrap_or((0.5 * estimate.error, 2.0 * estimate.error));
+        (needed(low.max(0.5 * estimate.error)), needed(high))
+    });
+    let all = [by_passes, by_time, by_error].into_iter().flatten();
+    all.reduce(|a, b| (a.0.min(b.0), a.1.min(b.1)))
+}
+
+/// A time left for people: `about 40 s left`, `30 s to 50 s left`.
+fn left_text(left: Option<(f64, f64)>) -> String {
+    match left.map(|(low, high)| (duration(low), duration(high))) {
+        None => "unknown time left".to_owned(),
+        Some((low, high)) if low == high => format!("{high} left"),
+        Some((low, high)) => format!("{low} to {high} left"),
     }
 }
 
@@ -56,26 +90,29 @@ impl Monitor for Bar {
             return;
         }
         let passes = progress.film.passes();
-        let next_line = self.next_line.lock().expect("nothing panics while it holds the lock");
-        let line_due = self.bar.is_none() && progress.seconds >= next_line.get();
+        let mut state = self.state.lock().expect("nothing panics while it holds the lock");
+        let line_due = self.bar.is_none() && progress.seconds >= state.next_line;
         // The estimate walks over all pixels, so it is made anew only at doublings, or for a line.
-        let look = passes.is_power_of_two() || line_due;
-        let error = look.then(|| progress.film.error()).flatten().map(|estimate| estimate.error);
-        let done = self.done(progress, error);
-        let left = if done > 0.0 { progress.seconds * (1.0 - done) / done } else { f64::INFINITY };
-        let mut text = format!("pass {passes}, {} left", duration(left));
-        if let Some(error) = error {
-            text += &format!(", error {}", percent(error));
+        let doubled = self.bar.is_some() && passes.is_power_of_two() && passes >= FIRST_LOOK;
+        if (doubled || line_due)
+            && let Some(estimate) = progress.film.error()
+        {
+            state.estimate = Some((passes, estimate));
+        }
+        let left = left(&self.stop, passes, progress.seconds, state.estimate);
+        let done = left.map_or(0.0, |(low, high)| progress.seconds / (progress.seconds + 0.5 * (low + high)));
+        let mut text = format!("pass {passes}, {}", left_text(left));
+        if let Some((at, estimate)) = state.estimate {
+            let age = if at == passes { String::new() } else { format!(" at pass {at}") };
+            text += &format!(", error {}{age}", percent(estimate.error));
         }
         match &self.bar {
             Some(bar) => {
                 bar.set_position((done * 1000.0) as u64);
-                if look || self.stop.error.is_none() {
-                    bar.set_message(text);
-                }
+                bar.set_message(text);
             }
             None if line_due => {
-                next_line.set(progress.seconds * 2.0);
+                state.next_line = progress.seconds * 2.0;
                 note(format_args!("{:3.0}%  {text}\n", done * 100.0));
             }
             None => {}
@@ -111,5 +148,28 @@ pub fn percent(share: f64) -> String {
         p if p >= 9.95 => format!("{p:.0} %"),
         p if p >= 0.095 => format!("{p:.1} %"),
         p => format!("{p:.3} %"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_is_to_the_first_stop_and_narrows() {
+        let estimate = |spread: f64| {
+            let interval = Some((0.02 / spread, 0.02 * spread));
+            Some((100, ErrorEstimate { error: 0.02, interval, trimmed: 0.02, blur: None }))
+        };
+        let by_error = Stop { error: Some(0.01), ..Stop::default() };
+        let (low, high) = left(&by_error, 100, 10.0, estimate(1.1)).unwrap();
+        assert!(low < 30.0 && 30.0 < high, "four times the passes are needed: {low} to {high}");
+        let (nearer, _) = left(&by_error, 100, 10.0, estimate(1.01)).unwrap();
+        assert!(nearer > low);
+        let or_time = Stop { seconds: Some(15.0), ..by_error };
+        assert_eq!(left(&or_time, 100, 10.0, estimate(1.1)), Some((5.0, 5.0)));
+        let passes = Stop { passes: Some(400), ..Stop::default() };
+        assert_eq!(left(&passes, 100, 10.0, None), Some((30.0, 30.0)));
+        assert_eq!(left(&by_error, 3, 10.0, None), None);
     }
 }

@@ -9,6 +9,7 @@ use super::summary::Summary;
 use super::{Exit, fail, interrupt, note};
 use crate::check::Checked;
 use crate::ir;
+use crate::load::Loaded;
 use crate::lower::Lowered;
 use crate::output::{Display, Exposure, Frame, Target, Tone};
 use crate::plan::Plan;
@@ -44,7 +45,7 @@ pub struct RenderArgs {
     /// Stop after this many passes, one camera sample a pixel each
     #[arg(long, visible_alias = "spp", value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     passes: Option<u32>,
-    /// Stop after this time, such as `90s` or `5min`
+    /// Stop after this time, such as `90s` or `5min`, whichever stop comes first
     #[arg(long, value_name = "TIME", value_parser = args::seconds, allow_hyphen_values = true)]
     time: Option<f64>,
     /// Stop when the picture's relative error is below this, such as `1%`
@@ -62,7 +63,7 @@ pub struct RenderArgs {
     /// The seed of all random numbers
     #[arg(long, value_name = "N", value_parser = args::seed, allow_hyphen_values = true)]
     seed: Option<u64>,
-    /// Write facts about the render as JSON
+    /// Write all that the closing words say, and more, as JSON
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
     #[command(flatten)]
@@ -114,6 +115,8 @@ impl Rendered {
             plan: &self.ready.plan,
             method: &self.ready.lowered.method,
             outcome: &self.outcome,
+            settings: &self.ready.settings,
+            scene_hash: &self.ready.scene_hash,
             compile_seconds: self.ready.compile_seconds,
             build_seconds: self.ready.build_seconds,
         }
@@ -159,15 +162,14 @@ pub fn one(
     let outcome = pool.install(|| crate::render::render(&ready.lowered.world, &ready.settings, &bar));
     bar.finish();
 
-    let paths: Vec<PathBuf> = if outcome.stats.passes == 0 {
-        Vec::new() // nothing was seen: no picture is better than a black one
-    } else {
-        write(&mut targets, &outcome, &ready)
-            .and_then(|()| targets.into_iter().map(Target::finish).collect())
-            .map_err(fail)?
-    };
-    let files = paths.iter().map(|path| path.display().to_string()).collect();
-    Ok(Rendered { scene: session.name.clone(), files, ready, outcome })
+    let mut rendered = Rendered { scene: session.name.clone(), files: Vec::new(), ready, outcome };
+    // Of nothing seen, no picture is better than a black one.
+    if rendered.outcome.stats.passes > 0 {
+        let paths: Result<Vec<PathBuf>, _> =
+            write(&mut targets, &rendered).and_then(|()| targets.into_iter().map(Target::finish).collect());
+        rendered.files = paths.map_err(fail)?.iter().map(|path| path.display().to_string()).collect();
+    }
+    Ok(rendered)
 }
 
 /// A scene ready to be rendered.
@@ -176,6 +178,8 @@ struct Ready {
     lowered: Lowered,
     camera: ir::Camera,
     settings: Settings,
+    /// What the scene's texts and parameters amount to.
+    scene_hash: String,
     /// Every file that the scene is made of.
     inputs: Vec<PathBuf>,
     /// Whether display values lose their fraction.
@@ -199,22 +203,29 @@ fn make_ready(
     if !session.is_good() {
         return None;
     }
-    let forced = match args.method {
-        None => None,
-        Some(Method::Pt) => Some(ir::Method::Pt),
-        Some(Method::Ppm) => Some(ir::Method::Ppm),
-        Some(Method::Classic) => Some(ir::Method::Classic),
-        Some(Method::Auto) => Some(crate::plan::suited(&loaded, Some(&camera))),
-    };
-    let plan = crate::plan::plan(&loaded, Some(&camera), forced);
+    let plan = crate::plan::plan(&loaded, Some(&camera), forced(args.method, &loaded, &camera));
     crate::plan::warn(&plan, &loaded, &mut session.problems);
     let lowered = crate::lower::lower(&loaded, &plan, &camera, &session.files, &mut session.problems)?;
     let build_seconds = start.elapsed().as_secs_f64() - compiled;
-    let settings = settings(args, &checked.render, &plan, &lowered);
+    let settings =
+        Settings { crop: crop_of(args, &camera), ..settings(args, &checked.render, &plan, &lowered) };
     let texts = session.sources.files().iter().map(|file| file.path.clone());
     let inputs = texts.chain(loaded.files).collect();
     let floor = plan.method == ir::Method::Classic && checked.render.classic.floor;
-    Some(Ready { plan, lowered, camera, settings, inputs, floor, compile_seconds: compiled, build_seconds })
+    let (scene_hash, compile_seconds) = (session.fingerprint(), compiled);
+    Some(Ready { plan, lowered, camera, settings, scene_hash, inputs, floor, compile_seconds, build_seconds })
+}
+
+/// The method that the command asks for.
+pub fn forced(method: Option<Method>, loaded: &Loaded<'_>, camera: &ir::Camera) -> Option<ir::Method> {
+    match method {
+        None => None,
+        Some(Method::Pt) => Some(ir::Method::Pt),
+        Some(Method::Ppm) => Some(ir::Method::Ppm),
+        Some(Method::Hybrid) => Some(ir::Method::Hybrid),
+        Some(Method::Classic) => Some(ir::Method::Classic),
+        Some(Method::Auto) => Some(crate::plan::suited(loaded, Some(camera))),
+    }
 }
 
 /// A stop flag replaces the scene's stop.
@@ -236,6 +247,12 @@ fn settings(args: &RenderArgs, render: &ir::Render, plan: &Plan, lowered: &Lower
     }
 }
 
+/// What is rendered of the picture: the command line goes before the scene.
+fn crop_of(args: &RenderArgs, camera: &ir::Camera) -> Option<Region> {
+    let written = camera.film.crop_in_pixels();
+    args.crop.or_else(|| written.map(|[x, y, width, height]| Region { x, y, width, height }))
+}
+
 /// What the film and its copies take for a pixel, in bytes: eight streams of three sums, the mean, its error, the file.
 const BYTES_PER_PIXEL: u64 = 8 * 24 + 64;
 
@@ -248,7 +265,7 @@ impl Ready {
         }
         let (width, height) = self.camera.film.size.value;
         let picture = Region { x: 0, y: 0, width, height };
-        let region = args.crop.map_or(picture, |crop| crop.clipped(&picture));
+        let region = self.settings.crop.map_or(picture, |crop| crop.clipped(&picture));
         if region.area() == 0 {
             return Err(format!("the crop lies outside the picture, which has {width} x {height} pixels"));
         }
@@ -264,22 +281,22 @@ impl Ready {
             _ => Ok(()),
         }
     }
+}
 
-    fn display(&self) -> Display {
-        let film = &self.camera.film;
-        Display {
-            exposure: match film.exposure.value {
-                ir::Exposure::Ev(ev) => Exposure::Ev(ev as f32),
-                ir::Exposure::Auto => Exposure::Auto,
-            },
-            tone: match film.tone.value {
-                ir::Tone::Srgb => Tone::Srgb,
-                ir::Tone::Linear => Tone::Linear,
-                ir::Tone::Reinhard => Tone::Reinhard,
-                ir::Tone::Agx => Tone::Agx,
-            },
-            floor: self.floor,
-        }
+/// How a film's pictures are shown; `floor` says whether display values lose their fraction.
+pub fn display(film: &ir::Film, floor: bool) -> Display {
+    Display {
+        exposure: match film.exposure.value {
+            ir::Exposure::Ev(ev) => Exposure::Ev(ev as f32),
+            ir::Exposure::Auto => Exposure::Auto,
+        },
+        tone: match film.tone.value {
+            ir::Tone::Srgb => Tone::Srgb,
+            ir::Tone::Linear => Tone::Linear,
+            ir::Tone::Reinhard => Tone::Reinhard,
+            ir::Tone::Agx => Tone::Agx,
+        },
+        floor,
     }
 }
 
@@ -327,21 +344,19 @@ fn writable(report: &Path) -> Result<(), String> {
     }
 }
 
-fn write(targets: &mut [Target], outcome: &Outcome, ready: &Ready) -> Result<(), crate::output::OutputError> {
+fn write(targets: &mut [Target], rendered: &Rendered) -> Result<(), crate::output::OutputError> {
+    let outcome = &rendered.outcome;
     let region = outcome.film.region();
     let variance = outcome.film.variance().unwrap_or_default();
-    let facts = vec![
-        ("passes".to_owned(), outcome.stats.passes.to_string()),
-        ("seed".to_owned(), ready.settings.seed.to_string()),
-    ];
     let frame = Frame {
         width: region.width,
         height: region.height,
         radiance: outcome.film.mean(),
         standard_error: variance.iter().map(|pixel| pixel.map(f32::sqrt)).collect(),
-        facts,
+        sample_counts: vec![outcome.stats.passes; region.area()],
+        facts: rendered.summary().facts(),
     };
-    let display = ready.display();
+    let display = display(&rendered.ready.camera.film, rendered.ready.floor);
     targets.iter_mut().try_for_each(|target| target.write(&frame, &display))
 }
 

@@ -27,6 +27,31 @@ pub struct Session {
     deny: Option<Deny>,
 }
 
+/// A hash that is the same on every machine and in every version.
+pub struct Fingerprint(u64);
+
+impl Default for Fingerprint {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Fingerprint {
+    /// Takes in a piece; where pieces end makes a difference.
+    pub fn add(&mut self, bytes: &[u8]) {
+        let length = (bytes.len() as u64).to_le_bytes();
+        for &byte in bytes.iter().chain(&length) {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+}
+
+impl std::fmt::Display for Fingerprint {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "{:016x}", self.0)
+    }
+}
+
 /// The largest scene text that is read.
 const MAX_TEXT: u64 = 1 << 30;
 
@@ -89,6 +114,14 @@ impl Session {
         let (files, name) = (self.files.clone(), self.name.clone());
         let (limits, deny) = (self.limits.clone(), self.deny);
         Self { sources, files, problems: Problems::default(), name, main, sets, limits, deny }
+    }
+
+    /// The scene's texts and parameters as 16 hexadecimal digits: other texts, other digits (FNV-1a, Fowler, Noll, Vo 1991).
+    pub fn fingerprint(&self) -> String {
+        let mut hash = Fingerprint::default();
+        self.sources.files().iter().for_each(|file| hash.add(file.text.as_bytes()));
+        self.sets.iter().for_each(|(name, value)| hash.add(format!("{name}={value}").as_bytes()));
+        hash.to_string()
     }
 
     /// The camera that the scene is seen through: the one asked for, or the first.

@@ -2,7 +2,7 @@
 
 use super::progress::{duration, percent};
 use crate::plan::Plan;
-use crate::render::{Method, Outcome, StoppedBy};
+use crate::render::{GatherRadius, Method, Outcome, Settings, Stop, StoppedBy};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -20,6 +20,10 @@ pub struct Summary<'a> {
     pub outcome: &'a Outcome,
     /// Seconds from text to plan.
     pub compile_seconds: f64,
+    /// What every random number and every path followed from.
+    pub settings: &'a Settings,
+    /// What the scene's texts and parameters amount to, as hexadecimal digits.
+    pub scene_hash: &'a str,
     /// Seconds for meshes, pictures and trees.
     pub build_seconds: f64,
 }
@@ -81,11 +85,14 @@ impl Summary<'_> {
         let stats = &self.outcome.stats;
         let region = self.outcome.film.region();
         json!({
+            "version": env!("CARGO_PKG_VERSION"),
             "scene": self.scene,
+            "scene_hash": self.scene_hash,
             "files": self.files,
             "width": region.width,
             "height": region.height,
             "method": self.method_name(),
+            "settings": self.settings_json(),
             "why": self.plan.why,
             "effects": self.plan.effects.iter().map(|used| used.effect.name()).collect::<Vec<_>>(),
             "passes": stats.passes,
@@ -107,16 +114,62 @@ impl Summary<'_> {
             "photons": stats.counters.photons,
             "stored_photons": stats.counters.stored_photons,
             "bad_samples": stats.bad_samples,
+            "bad_places": self.outcome.film.bad_samples().iter().map(|bad| json!({
+                "pixel": bad.pixel, "pass": bad.pass,
+            })).collect::<Vec<_>>(),
+            "is_exact": self.plan.is_exact,
             "error": self.outcome.error.map(|e| json!({
-                "rel": e.error, "low": e.low, "high": e.high, "trimmed": e.trimmed,
+                "rel": e.error,
+                "low": e.interval.map(|(low, _)| low),
+                "high": e.interval.map(|(_, high)| high),
+                "rel_mse": e.error * e.error,
+                "trimmed": e.trimmed,
+                "firefly_share": e.firefly_share(),
+                "blur_at_least": e.blur,
+                "total": e.total(),
+                "half_takes_seconds": stats.seconds * self.effort_for_half(),
             })),
         })
+    }
+
+    /// What the same picture needs: with the scene, these give the same bits on any machine.
+    fn settings_json(&self) -> Value {
+        let region = self.outcome.film.region();
+        let stop = self.settings.stop;
+        let photons = match self.method {
+            Method::Ppm(ppm) => json!({
+                "count": ppm.photon_count, "k": ppm.k, "radius": ppm.radius, "shrink": ppm.shrink,
+            }),
+            _ => Value::Null,
+        };
+        json!({
+            "seed": self.settings.seed,
+            "depth": self.settings.max_depth,
+            "crop": self.settings.crop.map(|_| [region.x, region.y, region.width, region.height]),
+            "stop": { "passes": stop.passes, "seconds": stop.seconds, "error": stop.error },
+            "photons": photons,
+        })
+    }
+
+    /// Facts for files that can hold them: enough to make the same picture again.
+    pub fn facts(&self) -> Vec<(String, String)> {
+        let stats = &self.outcome.stats;
+        let facts = [
+            ("scene", self.scene.to_owned()),
+            ("scene_hash", self.scene_hash.to_owned()),
+            ("method", self.method_name().to_owned()),
+            ("passes", stats.passes.to_string()),
+            ("seed", self.settings.seed.to_string()),
+            ("settings", self.settings_json().to_string()),
+        ];
+        facts.map(|(name, value)| (name.to_owned(), value)).to_vec()
     }
 
     fn method_name(&self) -> &'static str {
         match self.method {
             Method::Pt => "pt",
             Method::Ppm(_) => "ppm",
+            Method::Hybrid(_) => "hybrid",
             Method::Classic(_) => "classic",
         }
     }
@@ -131,46 +184,97 @@ impl Summary<'_> {
                 ppm.k,
                 length(f64::from(ppm.radius))
             ),
+            Method::Hybrid(hybrid) => format!(
+                "hybrid, {} photons a pass, aimed, gathered within {}",
+                count(u64::from(hybrid.photon_count)),
+                match hybrid.radius {
+                    GatherRadius::Meters(radius) => length(f64::from(radius)),
+                    GatherRadius::Pixels(pixels) => format!("{pixels} px"),
+                }
+            ),
         }
     }
 
-    fn stop_text(&self) -> &'static str {
+    fn stop_text(&self) -> String {
+        let passes = self.outcome.stats.passes;
         match self.outcome.stopped_by {
-            StoppedBy::Passes => "",
-            StoppedBy::Time => ", then time was up",
-            StoppedBy::Error => ", then the error was low enough",
-            StoppedBy::Cancelled => ", then interrupted",
+            StoppedBy::Passes => String::new(),
+            StoppedBy::Time => format!(", then time was up; `--passes {passes}` makes the same picture"),
+            StoppedBy::Error => ", then the error was low enough".to_owned(),
+            StoppedBy::Cancelled => ", then interrupted".to_owned(),
+        }
+    }
+
+    /// How many times the work so far half the error takes. The error falls as 1/√passes; that of photons, whose
+    /// discs shrink meanwhile, as passes^(−α/2) (Knaus & Zwicker 2011).
+    fn effort_for_half(&self) -> f64 {
+        match self.method {
+            Method::Ppm(ppm) => 4.0_f64.powf(1.0 / ppm.shrink),
+            // What of a hybrid's noise is that of its photons is not known.
+            _ => 4.0,
         }
     }
 
     fn photon_time(&self) -> String {
         match self.method {
             Method::Pt | Method::Classic(_) => String::new(),
-            Method::Ppm(_) => format!("photons {}, ", duration(self.outcome.stats.prepare_seconds)),
+            Method::Ppm(_) | Method::Hybrid(_) => {
+                format!("photons {}, ", duration(self.outcome.stats.prepare_seconds))
+            }
         }
     }
 
-    /// The error falls as 1/√passes, so half of it takes four times as long. Photon maps also blur, by an amount that
-    /// the spread between passes does not show.
+    /// Photon maps also blur, by an amount that the spread between passes does not show.
     fn error_text(&self) -> String {
         if self.plan.is_exact {
             return "none: nothing was drawn at random".to_owned();
         }
         let Some(e) = self.outcome.error else { return "unknown below two passes".to_owned() };
-        let half = duration(self.outcome.stats.seconds * 4.0);
+        let stats = &self.outcome.stats;
+        let half = duration(stats.seconds * self.effort_for_half());
+        let asked = match self.settings.stop {
+            Stop { error: Some(target), .. } if target < e.error => {
+                format!(
+                    ", the {} asked for {}",
+                    percent(target),
+                    duration(stats.seconds * e.effort_to(target))
+                )
+            }
+            _ => String::new(),
+        };
         let (noise, blur) = match self.method {
-            Method::Pt | Method::Classic(_) => ("", ""),
-            Method::Ppm(_) => ("noise ", "; blur by the gather radius not counted"),
+            Method::Pt | Method::Classic(_) => ("", String::new()),
+            Method::Ppm(_) | Method::Hybrid(_) => ("noise ", blur_text(e.blur)),
+        };
+        let interval = e.interval.map_or("no interval below four passes".to_owned(), |(low, high)| {
+            format!("95 %: {} to {}", percent(low), percent(high))
+        });
+        let fireflies = match e.firefly_share() {
+            share if share >= FIREFLIES => format!(
+                "; {} of its square are the worst 0.1 % of pixels, {} without them",
+                percent(share),
+                percent(e.trimmed)
+            ),
+            _ => String::new(),
         };
         format!(
-            "{noise}{} (95 %: {} to {}; {} without the worst 0.1 % of pixels){blur}; half of it would take {half}",
-            percent(e.error),
-            percent(e.low),
-            percent(e.high),
-            percent(e.trimmed),
+            "{noise}{} ({interval}){fireflies}{blur}\n          half of it would take {half}{asked}",
+            percent(e.error)
         )
     }
 }
+
+/// What is known of the error that photons make beside noise.
+fn blur_text(blur: Option<f64>) -> String {
+    match blur {
+        Some(blur) if blur > 0.0 => format!("; blur at least {}", percent(blur)),
+        Some(_) => "; no blur found".to_owned(),
+        None => "; blur unknown below six passes".to_owned(),
+    }
+}
+
+/// The share of the squared error above which the worst 0.1 % of pixels are worth a word. Even noise gives them 1 %.
+const FIREFLIES: f64 = 0.1;
 
 /// A count for people: `950`, `12,345`, `3.2 M`.
 fn count(n: u64) -> String {

@@ -279,6 +279,17 @@ pub enum Shape {
         min: DVec3,
         max: DVec3,
     },
+    /// A tube without lids.
+    Cylinder {
+        base: DVec3,
+        top: DVec3,
+        radius: f64,
+    },
+    /// A ring around the y axis.
+    Torus {
+        radius: f64,
+        tube: f64,
+    },
     Mesh {
         file: Asset,
         /// Whether normals are interpolated; unless it is said, the dialect decides.

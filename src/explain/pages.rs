@@ -29,6 +29,7 @@ const PAGES: &[Page] = pages! {
         camera_in_glass: Warning,
         camera_looks_nowhere: Error,
         camera_sealed: Warning,
+        cannot_hold: Error,
         caustics_by_luck: Warning,
         caustics_invisible: Warning,
         coincident_glass: Warning,
@@ -52,6 +53,7 @@ const PAGES: &[Page] = pages! {
         light_hidden: Warning,
         light_sealed: Warning,
         loose_error: Warning,
+        may_create_energy: Warning,
         negative_light: Error,
         negative_radius: Error,
         no_camera: Error,
@@ -59,13 +61,17 @@ const PAGES: &[Page] = pages! {
         not_positive: Error,
         nothing_in_view: Warning,
         object_hidden: Warning,
+        open_ends: Warning,
         open_glass: Warning,
         out_of_range: Error,
         phong_energy: Warning,
         short_paths: Warning,
+        second_sky: Error,
         singular_transform: Error,
         squeezing_transform: Warning,
+        thin_inside: Error,
         too_deep_mix: Error,
+        too_deep_texture: Error,
         too_large: Error,
         too_many_parts: Error,
         too_small_to_see: Warning,
@@ -114,6 +120,7 @@ const PAGES: &[Page] = pages! {
         up_not_perpendicular: Warning,
     }
     load {
+        bad_lens: Error,
         bad_mesh: Error,
         bad_picture: Error,
         mesh_note: Warning,
@@ -124,6 +131,7 @@ const PAGES: &[Page] = pages! {
     }
     lower {
         bad_focus: Error,
+        too_wide: Error,
     }
     plan {
         classic_only: Error,

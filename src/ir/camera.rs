@@ -1,6 +1,6 @@
 //! Cameras and film.
 
-use crate::math::DVec3;
+use crate::math::{DVec2, DVec3};
 use crate::source::{Span, Spanned};
 
 /// A camera.
@@ -40,6 +40,8 @@ pub enum Lens {
     Pinhole {
         /// In metres; gives the field of view together with the sensor.
         focal_length: Option<Spanned<f64>>,
+        /// How far the picture is shifted to the right and upwards, in shares of its width and height.
+        shift: DVec2,
     },
     /// Through a thin lens.
     Thin {
@@ -53,7 +55,83 @@ pub enum Lens {
         blades: Spanned<u32>,
         /// Turn of the iris, in radians.
         rotation: Spanned<f64>,
+        /// How many times as high as wide the opening is.
+        anamorphic: Spanned<f64>,
+        /// How far the barrel cuts the opening in the corners, in its radii.
+        cat_eye: Spanned<f64>,
+        /// As for a pinhole.
+        shift: DVec2,
+        /// How far the lens is turned upwards and to the right, in radians.
+        tilt: [Spanned<f64>; 2],
     },
+    /// Parallel rays.
+    Orthographic {
+        /// Width or height of what is seen, in metres.
+        size: Spanned<f64>,
+        /// Whether `size` is the width.
+        is_width: bool,
+    },
+    /// All around: longitude to the right, latitude upwards.
+    Panorama {
+        /// From left to right, in radians.
+        width: Spanned<f64>,
+        /// From bottom to top, in radians.
+        height: Spanned<f64>,
+    },
+    /// A round picture of a wide view.
+    Fisheye {
+        /// From rim to rim, in radians.
+        angle: Spanned<f64>,
+        /// From angle to radius.
+        mapping: Mapping,
+        /// Whether the corners of the film lie on the rim; otherwise its shorter sides do.
+        full: bool,
+    },
+    /// Through the surfaces of a real lens.
+    Prescription {
+        /// The table of surfaces, as written.
+        file: Spanned<String>,
+        /// The f-number; `None`: as far open as the table says.
+        aperture: Option<Spanned<f64>>,
+        /// What is sharp.
+        focus: Option<Spanned<Focus>>,
+    },
+}
+
+/// How a fisheye lens maps the angle θ from its axis to the distance from the picture's middle.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Mapping {
+    /// θ.
+    Equidistant,
+    /// sin θ/2.
+    EquisolidAngle,
+    /// tan θ/2.
+    Stereographic,
+    /// sin θ.
+    Orthographic,
+}
+
+impl Lens {
+    /// The focal length that gives the field of view, with its place.
+    pub const fn focal_length(&self) -> Option<Spanned<f64>> {
+        match self {
+            Self::Pinhole { focal_length, .. } | Self::Thin { focal_length, .. } => *focal_length,
+            _ => None,
+        }
+    }
+
+    /// What is sharp.
+    pub const fn focus(&self) -> Option<&Spanned<Focus>> {
+        match self {
+            Self::Thin { focus, .. } | Self::Prescription { focus, .. } => focus.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// Whether the picture is a perspective whose field of view the camera says.
+    pub const fn has_fov(&self) -> bool {
+        matches!(self, Self::Pinhole { .. } | Self::Thin { .. })
+    }
 }
 
 /// What is in focus.
@@ -72,6 +150,8 @@ pub enum Focus {
 pub struct Film {
     /// Pixels, width by height.
     pub size: Spanned<(u32, u32)>,
+    /// The part that is rendered, in shares of the picture from its top left: left, top, right, bottom.
+    pub crop: Option<Spanned<[f64; 4]>>,
     /// The pixel filter.
     pub filter: Spanned<Filter>,
     /// The width of a pixel by its height.
@@ -85,6 +165,15 @@ pub struct Film {
 }
 
 impl Film {
+    /// The part that is rendered, in pixels from the top left: column, row, width, height. `None`: all of it.
+    pub fn crop_in_pixels(&self) -> Option<[u32; 4]> {
+        let (width, height) = self.size.value;
+        let [left, top, right, bottom] = self.crop?.value;
+        let edge = |share: f64, count: u32| (share * f64::from(count)).round() as u32;
+        let (x, y) = (edge(left, width), edge(top, height));
+        Some([x, y, edge(right, width).saturating_sub(x), edge(bottom, height).saturating_sub(y)])
+    }
+
     /// The width of the picture by its height.
     pub fn aspect(&self) -> f64 {
         let (width, height) = self.size.value;
@@ -99,6 +188,20 @@ pub enum Filter {
     Box(f64),
     Tent(f64),
     Gaussian(f64),
+    Mitchell(f64),
+    BlackmanHarris(f64),
+}
+
+impl Filter {
+    /// How far it reaches, in pixels.
+    pub const fn radius(self) -> f64 {
+        let (Self::Box(radius)
+        | Self::Tent(radius)
+        | Self::Gaussian(radius)
+        | Self::Mitchell(radius)
+        | Self::BlackmanHarris(radius)) = self;
+        radius
+    }
 }
 
 /// How bright the picture becomes.

@@ -2,12 +2,14 @@
 
 use super::camera::Fov;
 use super::light::EnvironmentRadiance;
-use super::material::CheckerCells;
+use super::material::{Channel, CheckerCells, ColorSpace, Pattern};
 use super::{
-    Brightness, Camera, Classic, Curve, Exposure, Focus, Handle, ImageUse, Input, Lens, Light, LightKind,
-    Material, MaterialKind, MetalColor, Object, Projection, RevolveMethod, Scene, ShapeKind, TextureKind,
+    Brightness, Camera, Classic, Curve, Exposure, Focus, Handle, Heights, ImageUse, Input, Lens, Light,
+    LightKind, Material, MaterialKind, MetalColor, Object, Projection, RevolveMethod, Scene, ShapeKind,
+    TextureKind,
 };
 use crate::math::{DAffine3, DVec2, DVec3, Rgb};
+use crate::source::Spanned;
 use std::fmt::Write;
 
 /// The whole scene as text.
@@ -92,7 +94,31 @@ fn texture_kind(kind: &TextureKind) -> String {
                 CheckerCells::Uv(cells) => format!("cells {}", pair(cells)),
                 CheckerCells::Solid(size) => format!("size {}", number(size)),
             };
-            format!("checker a {} b {} {cells}", rgb(checker.a.value), rgb(checker.b.value))
+            format!("checker a {} b {} {cells}", input(checker.a), input(checker.b))
+        }
+        TextureKind::Pattern { a, b, pattern } => {
+            format!("{} a {} b {}", pattern_text(pattern), input(*a), input(*b))
+        }
+        TextureKind::Blend { a, b, amount } => {
+            format!("blend a {} b {} amount {}", input(*a), input(*b), input(*amount))
+        }
+        TextureKind::Join { op, a, b } => format!("{op:?} {} {}", input(*a), input(*b)).to_lowercase(),
+    }
+}
+
+fn pattern_text(pattern: &Pattern) -> String {
+    match pattern {
+        Pattern::Gradient(None) => "gradient".to_owned(),
+        Pattern::Gradient(Some([start, end])) => format!("gradient {} {}", point(*start), point(*end)),
+        Pattern::Noise { size, octaves } => format!("noise size {} octaves {octaves}", number(*size)),
+        Pattern::Marble { size, turbulence } => {
+            format!("marble size {} turbulence {}", number(*size), number(*turbulence))
+        }
+        Pattern::Wood { size, turbulence } => {
+            format!("wood size {} turbulence {}", number(*size), number(*turbulence))
+        }
+        Pattern::Brick { cells, mortar, aspect } => {
+            format!("brick {} mortar {} aspect {}", pair(*cells), number(*mortar), number(*aspect))
         }
     }
 }
@@ -108,8 +134,23 @@ fn image_text(image: &ImageUse) -> String {
     if (image.uv_scale, image.uv_offset) != (DVec2::ONE, DVec2::ZERO) {
         let _ = write!(out, " uv {} + {}", pair(image.uv_scale), pair(image.uv_offset));
     }
-    if let Projection::Planar { origin, u, v } = image.projection {
-        let _ = write!(out, " planar {} u {} v {}", point(origin), point(u), point(v));
+    if image.uv_rotation != 0.0 {
+        let _ = write!(out, " turned {}", number(image.uv_rotation));
+    }
+    if (image.space, image.channel) != (ColorSpace::Auto, Channel::Rgb) {
+        let _ = write!(out, " {:?} {:?}", image.space, image.channel);
+    }
+    match image.projection {
+        Projection::Uv => {}
+        Projection::Planar { origin, u, v } => {
+            let _ = write!(out, " planar {} u {} v {}", point(origin), point(u), point(v));
+        }
+        Projection::Spherical { center } => {
+            let _ = write!(out, " spherical {}", point(center));
+        }
+        Projection::Cubic { center, size } => {
+            let _ = write!(out, " cubic {} size {}", point(center), point(size));
+        }
     }
     out
 }
@@ -123,13 +164,62 @@ fn material_kind(material: &Material) -> String {
         MaterialKind::Mirror { color } => format!("mirror {}", input(*color)),
         MaterialKind::Metal { color, roughness } => {
             let color = match color {
-                MetalColor::Named(name, color) => format!("{} {}", name.value, rgb(*color)),
-                MetalColor::Color(color) => input(*color),
+                MetalColor::Named { name, straight, edge } => {
+                    format!("{} {} edge {}", name.value, rgb(*straight), rgb(*edge))
+                }
+                MetalColor::Color { straight, edge } => format!("{} edge {}", input(*straight), input(*edge)),
             };
             format!("metal {color} roughness {}", input(*roughness))
         }
-        MaterialKind::Glass { ior, tint, absorption } => {
-            format!("glass ior {} tint {} absorption {}", ior.value, rgb(tint.value), rgb(*absorption))
+        MaterialKind::Glass { ior, roughness, tint, absorption, abbe, thin, priority } => {
+            let mut text =
+                format!("glass ior {} tint {} absorption {}", ior.value, rgb(tint.value), rgb(*absorption));
+            if !matches!(roughness, Input::Constant(color) if color.is_black()) {
+                let _ = write!(text, " roughness {}", input(*roughness));
+            }
+            if let Some(abbe) = abbe {
+                let _ = write!(text, " abbe {}", number(abbe.value));
+            }
+            if thin.is_some() {
+                text.push_str(" thin");
+            }
+            if *priority != 0 {
+                let _ = write!(text, " priority {priority}");
+            }
+            text
+        }
+        MaterialKind::Plastic { color, ior, roughness } => {
+            format!("plastic {} ior {} roughness {}", input(*color), ior.value, input(*roughness))
+        }
+        MaterialKind::Layer { base, ior, roughness, cover } => {
+            format!(
+                "layer {base:?} ior {} roughness {} cover {}",
+                ior.value,
+                input(*roughness),
+                input(*cover)
+            )
+        }
+        MaterialKind::Principled(of) => format!(
+            "principled {} metallic {} roughness {} transmission {} ior {} clearcoat {} {} emission {}",
+            input(of.color),
+            input(of.metallic),
+            input(of.roughness),
+            input(of.transmission),
+            of.ior.value,
+            input(of.clearcoat),
+            input(of.clearcoat_roughness),
+            rgb(of.emission.value)
+        ),
+        MaterialKind::Mask { base, opacity, cutoff } => {
+            let cutoff = cutoff.map_or(String::new(), |cutoff| format!(" cutoff {}", number(cutoff)));
+            format!("mask {base:?} opacity {}{cutoff}", input(*opacity))
+        }
+        MaterialKind::TwoSided { front, back } => format!("two_sided {front:?} {back:?}"),
+        MaterialKind::NormalMap { base, map, strength } => {
+            format!("normal_map {base:?} texture {:?} strength {}", map.value, number(*strength))
+        }
+        MaterialKind::Bump { base, height, depth } => {
+            format!("bump {base:?} texture {:?} depth {}", height.value, number(*depth))
         }
         MaterialKind::Emissive { brightness: b, color } => {
             format!("emissive {} color {}", brightness(b.value), rgb(*color))
@@ -184,6 +274,28 @@ fn shape_kind(kind: &ShapeKind) -> String {
                 number(tube.value)
             )
         }
+        ShapeKind::Sweep { path, radius, end_radius, caps, closed, tolerance } => {
+            let mut out = format!("sweep {caps:?} radius {}", number(radius.value));
+            if let Some(end) = end_radius {
+                let _ = write!(out, " to {}", number(end.value));
+            }
+            if let Some(tolerance) = tolerance {
+                let _ = write!(out, " tolerance {}", number(tolerance.value));
+            }
+            let points: Vec<String> = path.points.iter().map(|&p| point(p)).collect();
+            let closed = if *closed { " closed" } else { "" };
+            format!("{out}{closed} {:?} {}", path.kind, points.join(" "))
+        }
+        ShapeKind::Heightfield { heights, size, smooth } => {
+            let heights = match heights {
+                Heights::Image(texture) => format!("texture {:?}", texture.value),
+                Heights::Grid { width, values, .. } => {
+                    let values: Vec<String> = values.iter().map(|&v| number(f64::from(v))).collect();
+                    format!("{width} wide {}", values.join(" "))
+                }
+            };
+            format!("heightfield {} smooth {smooth} {heights}", point(size.value))
+        }
         ShapeKind::Revolve { profile, method } => {
             let method = match method {
                 RevolveMethod::Exact => "exact".to_owned(),
@@ -194,9 +306,10 @@ fn shape_kind(kind: &ShapeKind) -> String {
             };
             format!("revolve {method} {}", curve(profile))
         }
-        ShapeKind::Extrude { outline, holes, depth } => {
+        ShapeKind::Extrude { outline, holes, depth, tolerance } => {
+            let tolerance = tolerance.map_or(String::new(), |t| format!(" tolerance {}", number(t.value)));
             let holes: String = holes.iter().map(|hole| format!(" hole {}", curve(hole))).collect();
-            format!("extrude depth {} {}{holes}", number(depth.value), curve(outline))
+            format!("extrude depth {}{tolerance} {}{holes}", number(depth.value), curve(outline))
         }
     }
 }
@@ -233,6 +346,28 @@ fn light_text(light: &Light) -> String {
             let sides = if two_sided { " two-sided" } else { "" };
             format!("rect {} u {} v {}{sides}", point(origin), point(edge_u), point(edge_v))
         }
+        LightKind::Spot { position, direction, angle, blend, falloff } => {
+            let (position, direction) = (point(position), point(direction.value));
+            let fades = match falloff.value == LightKind::PHYSICAL {
+                true => String::new(),
+                false => format!(" falloff {:?}", falloff.value),
+            };
+            let (angle, blend) = (number(angle.value), number(blend.value));
+            format!("spot {position} direction {direction} angle {angle} blend {blend}{fades}")
+        }
+        LightKind::Disk { center, edge_u, edge_v, two_sided, .. } => {
+            let sides = if two_sided { " two-sided" } else { "" };
+            format!("disk {} u {} v {}{sides}", point(center), point(edge_u), point(edge_v))
+        }
+        LightKind::SunSky(ref day) => {
+            let (sun, size) = (point(day.to_sun.value), number(day.sun_size.value));
+            let disc = if day.sun { format!("size {size}") } else { "hidden".to_owned() };
+            format!(
+                "sun_sky {sun} {disc} turbidity {} ground {}",
+                number(day.turbidity.value),
+                rgb(day.ground)
+            )
+        }
         LightKind::Directional { direction } => format!("directional {}", point(direction.value)),
     };
     format!("light {kind} {} color {}", brightness(light.brightness.value), rgb(light.color))
@@ -256,6 +391,10 @@ fn dump_camera(out: &mut String, scene: &Scene, camera: &Camera) {
     };
     let ((width, height), filter, tone) = (film.size.value, film.filter.value, film.tone.value);
     let sensor = number(film.sensor.value);
+    let crop = film.crop.map_or(String::new(), |crop| {
+        let [left, top, right, bottom] = crop.value.map(number);
+        format!(" crop {left} {top} {right} {bottom}")
+    });
     let stretch = match film.pixel_aspect.value {
         1.0 => String::new(),
         aspect => format!(" pixel_aspect {}", number(aspect)),
@@ -263,31 +402,65 @@ fn dump_camera(out: &mut String, scene: &Scene, camera: &Camera) {
     line(
         out,
         &format!(
-            "    film {width} x {height}{stretch} {filter:?} sensor {sensor} exposure {exposure} {tone:?}"
+            "    film {width} x {height}{crop}{stretch} {filter:?} sensor {sensor} exposure {exposure} {tone:?}"
         ),
     );
 }
 
+fn focus_text(scene: &Scene, focus: Option<&Spanned<Focus>>) -> String {
+    match focus.map(|focus| &focus.value) {
+        None => "nothing".to_owned(),
+        Some(Focus::Distance(distance)) => number(*distance),
+        Some(Focus::Point(p)) => point(*p),
+        Some(Focus::On(id, _)) => format!("on `{}`", scene.names[*id as usize].name.value),
+    }
+}
+
+fn shift_text(shift: DVec2) -> String {
+    if shift == DVec2::ZERO { String::new() } else { format!(" shift {}", pair(shift)) }
+}
+
 fn lens(scene: &Scene, lens: &Lens) -> String {
     match lens {
-        Lens::Pinhole { focal_length: None } => "pinhole".to_owned(),
-        Lens::Pinhole { focal_length: Some(length) } => {
-            format!("pinhole focal_length {}", number(length.value))
-        }
-        Lens::Thin { focal_length, radius, focus, blades, rotation } => {
+        Lens::Pinhole { focal_length, shift } => {
             let length = focal_length
                 .map_or(String::new(), |length| format!(" focal_length {}", number(length.value)));
-            let focus = match focus.as_ref().map(|focus| &focus.value) {
-                None => "nothing".to_owned(),
-                Some(Focus::Distance(distance)) => number(*distance),
-                Some(Focus::Point(p)) => point(*p),
-                Some(Focus::On(id, _)) => format!("on `{}`", scene.names[*id as usize].name.value),
-            };
+            format!("pinhole{length}{}", shift_text(*shift))
+        }
+        Lens::Thin { focal_length, radius, focus, blades, rotation, anamorphic, cat_eye, shift, tilt } => {
+            let length = focal_length
+                .map_or(String::new(), |length| format!(" focal_length {}", number(length.value)));
+            let focus = focus_text(scene, focus.as_ref());
+            let mut more = shift_text(*shift);
+            for (name, value, usual) in [
+                ("anamorphic", anamorphic, 1.0),
+                ("cat_eye", cat_eye, 0.0),
+                ("tilt", &tilt[0], 0.0),
+                ("swing", &tilt[1], 0.0),
+            ] {
+                if value.value != usual {
+                    let _ = write!(more, " {name} {}", number(value.value));
+                }
+            }
             let (blades, rotation) = (blades.value, number(rotation.value));
             format!(
-                "thin{length} radius {} focus {focus} blades {blades} rotation {rotation}",
+                "thin{length} radius {} focus {focus} blades {blades} rotation {rotation}{more}",
                 number(radius.value)
             )
+        }
+        Lens::Orthographic { size, is_width } => {
+            format!("orthographic {} {}", if *is_width { "width" } else { "height" }, number(size.value))
+        }
+        Lens::Panorama { width, height } => {
+            format!("panorama {} x {}", number(width.value), number(height.value))
+        }
+        Lens::Fisheye { angle, mapping, full } => {
+            format!("fisheye {} {mapping:?}{}", number(angle.value), if *full { " full" } else { "" })
+        }
+        Lens::Prescription { file, aperture, focus } => {
+            let aperture = aperture.map_or(String::new(), |n| format!(" aperture f/{}", number(n.value)));
+            let focus = focus_text(scene, focus.as_ref());
+            format!("prescription \"{}\"{aperture} focus {focus}", file.value)
         }
     }
 }

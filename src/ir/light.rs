@@ -47,6 +47,34 @@ pub enum LightKind {
         /// Whether both sides shine.
         two_sided: bool,
     },
+    /// From a point into a cone.
+    Spot {
+        /// Where.
+        position: DVec3,
+        /// The way its middle shines, not necessarily a unit vector.
+        direction: Spanned<DVec3>,
+        /// From one edge of the cone to the other, in radians.
+        angle: Spanned<f64>,
+        /// The share of the half-angle over which it fades at the edge.
+        blend: Spanned<f64>,
+        /// As for a point.
+        falloff: Spanned<[f64; 3]>,
+    },
+    /// A glowing disk, to the side of `edge_u × edge_v`; an ellipse where a transform squeezes it.
+    Disk {
+        /// Its centre.
+        center: DVec3,
+        /// From there to its rim.
+        edge_u: DVec3,
+        /// From there to its rim, across; both of the length `radius` before a transform.
+        edge_v: DVec3,
+        /// As it was written.
+        radius: Spanned<f64>,
+        /// Whether both sides shine.
+        two_sided: bool,
+    },
+    /// Sun and sky.
+    SunSky(Daylight),
     /// From infinitely far away.
     Directional {
         /// The way the light travels.
@@ -54,9 +82,37 @@ pub enum LightKind {
     },
 }
 
+/// The light of a clear day (Preetham, Shirley, Smits 1999).
+#[derive(Clone, PartialEq, Debug)]
+pub struct Daylight {
+    /// The direction to the sun, not necessarily a unit vector.
+    pub to_sun: Spanned<DVec3>,
+    /// How hazy the air is: 2 is clear, 10 is haze.
+    pub turbidity: Spanned<f64>,
+    /// The albedo of the ground.
+    pub ground: Rgb,
+    /// Whether the sun itself is there.
+    pub sun: bool,
+    /// The angle under which the sun is seen, from rim to rim, in radians.
+    pub sun_size: Spanned<f64>,
+}
+
 impl LightKind {
     /// As light fades: by the square of the distance.
     pub const PHYSICAL: [f64; 3] = [0.0, 0.0, 1.0];
+
+    /// Whether no path can meet it.
+    pub const fn is_sizeless(&self) -> bool {
+        matches!(self, Self::Point { .. } | Self::Spot { .. } | Self::Directional { .. })
+    }
+
+    /// How it fades with the distance, where that can be said.
+    pub const fn falloff(&self) -> Option<Spanned<[f64; 3]>> {
+        match self {
+            Self::Point { falloff, .. } | Self::Spot { falloff, .. } => Some(*falloff),
+            _ => None,
+        }
+    }
 }
 
 /// How bright a light is; each is multiplied by its colour.

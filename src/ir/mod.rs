@@ -18,7 +18,7 @@ pub use light::{Brightness, Environment, Light, LightKind};
 pub use material::{
     Checker, ImageUse, Input, Material, MaterialKind, MetalColor, Projection, Texture, TextureKind, Wrap,
 };
-pub use shape::{Curve, CurveKind, Method as RevolveMethod, Outline, Shape, ShapeKind};
+pub use shape::{Caps, Curve, CurveKind, Heights, Method as RevolveMethod, Outline, Path, Shape, ShapeKind};
 
 /// A whole scene.
 #[derive(Default, Debug)]
@@ -160,6 +160,8 @@ pub enum Method {
     Pt,
     /// Progressive photon mapping.
     Ppm,
+    /// Path tracing, with caustics from photons.
+    Hybrid,
     /// Recursive ray tracing.
     Classic,
 }

@@ -1,7 +1,7 @@
 //! Shapes, each in its own frame.
 
 use super::Handle;
-use super::material::Material;
+use super::material::{Material, Texture};
 use crate::math::{DAffine3, DMat3, DVec2, DVec3};
 use crate::source::{Span, Spanned};
 
@@ -100,6 +100,30 @@ pub enum ShapeKind {
         /// The radius of the tube.
         tube: Spanned<f64>,
     },
+    /// A tube along a curve.
+    Sweep {
+        /// Its middle.
+        path: Path,
+        /// The radius of the tube at the start.
+        radius: Spanned<f64>,
+        /// The radius at the end; `None`: the same.
+        end_radius: Option<Spanned<f64>>,
+        /// What closes its ends.
+        caps: Caps,
+        /// Whether its end is joined to its start.
+        closed: bool,
+        /// How far triangles may lie from it, in metres; `None`: a thousandth of its size.
+        tolerance: Option<Spanned<f64>>,
+    },
+    /// Heights over a grid in the plane y = 0.
+    Heightfield {
+        /// The heights, as shares of `size.y`.
+        heights: Heights,
+        /// What it spans from the origin.
+        size: Spanned<DVec3>,
+        /// Whether normals are interpolated.
+        smooth: bool,
+    },
     /// A profile turned about the y axis.
     Revolve {
         /// Points (radius, height).
@@ -115,6 +139,8 @@ pub enum ShapeKind {
         holes: Vec<Outline>,
         /// From z = 0 to this.
         depth: Spanned<f64>,
+        /// How far its sides may lie from a curved outline, in metres; `None`: a ten-thousandth of its size.
+        tolerance: Option<Spanned<f64>>,
     },
 }
 
@@ -130,6 +156,55 @@ pub struct Curve {
     pub points: Vec<DVec2>,
     /// Where it was written.
     pub span: Span,
+}
+
+/// A curve in space.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Path {
+    /// How the points are joined.
+    pub kind: CurveKind,
+    /// The (control) points.
+    pub points: Vec<DVec3>,
+    /// Where it was written.
+    pub span: Span,
+}
+
+/// What closes the ends of a tube.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[expect(missing_docs, reason = "each is its word")]
+pub enum Caps {
+    Flat,
+    Round,
+    None,
+}
+
+/// Where heights come from.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Heights {
+    /// The brightness of a picture, from 0 to 1; always an image texture.
+    Image(Spanned<Handle<Texture>>),
+    /// As numbers.
+    Grid {
+        /// How many in a row.
+        width: usize,
+        /// Row by row.
+        values: Vec<f32>,
+        /// Where they were written.
+        span: Span,
+    },
+}
+
+impl Heights {
+    /// The lowest and the highest of them; those of a picture, which is not read yet, lie from 0 to 1.
+    pub fn range(&self) -> (f64, f64) {
+        match self {
+            Self::Image(_) => (0.0, 1.0),
+            Self::Grid { values, .. } => {
+                let each = || values.iter().map(|&value| f64::from(value));
+                (each().fold(f64::INFINITY, f64::min), each().fold(f64::NEG_INFINITY, f64::max))
+            }
+        }
+    }
 }
 
 /// How points become a curve.

@@ -78,6 +78,23 @@ pub enum LoadError {
         #[expect(missing_docs, reason = "the label says it")]
         used: Span,
     },
+    /// Not a table of lens surfaces.
+    #[error("`{name}` is not a lens: {reason}")]
+    #[diagnostic(
+        code(snell::load::bad_lens),
+        help(
+            "a line holds radius, distance to the next surface, index and diameter in mm; one begins with `stop`"
+        )
+    )]
+    BadLens {
+        /// As written.
+        name: String,
+        /// What is wrong with it, and in which line.
+        reason: String,
+        #[label("named here")]
+        #[expect(missing_docs, reason = "the label says it")]
+        used: Span,
+    },
     /// Not a picture that can be read.
     #[error("`{name}` cannot be used as a picture: {reason}")]
     #[diagnostic(

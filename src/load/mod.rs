@@ -4,12 +4,12 @@
 
 mod error;
 
-use crate::asset::{self, Model, ModelMaterial, obj, picture};
+use crate::asset::{self, LensTable, Model, ModelMaterial, lens, obj, picture};
 use crate::check::{self, Checked, MeshPart, Meshes, OwnMaterial};
 use crate::diag::Problems;
 use crate::ir::light::EnvironmentRadiance;
 use crate::ir::material::Input;
-use crate::ir::{Handle, Material, Scene, ShapeKind, Texture, TextureKind};
+use crate::ir::{Handle, Heights, Lens, Material, Scene, ShapeKind, Texture, TextureKind};
 use crate::source::{Files, SourceMap, Span};
 pub use error::LoadError;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -22,6 +22,8 @@ pub struct Loaded<'a> {
     pub scene: &'a Scene,
     meshes: FxHashMap<usize, Arc<LoadedMesh>>,
     pictures: FxHashMap<usize, PictureFile>,
+    /// Lenses by where the scene names them.
+    lenses: FxHashMap<Span, LensTable>,
     /// Every file that was read, so that no output replaces one.
     pub files: Vec<PathBuf>,
 }
@@ -59,6 +61,11 @@ impl Loaded<'_> {
     pub fn picture(&self, texture: Handle<Texture>) -> Option<&PictureFile> {
         self.pictures.get(&texture.index())
     }
+
+    /// The lens that the scene names at this place.
+    pub fn lens(&self, named: Span) -> Option<&LensTable> {
+        self.lenses.get(&named)
+    }
 }
 
 impl Meshes for Loaded<'_> {
@@ -95,6 +102,7 @@ pub fn load<'a>(
             scene,
             meshes: FxHashMap::default(),
             pictures: FxHashMap::default(),
+            lenses: FxHashMap::default(),
             files: Vec::new(),
         },
         models: FxHashMap::default(),
@@ -117,6 +125,9 @@ pub fn load<'a>(
         && let EnvironmentRadiance::Image(texture) = environment.radiance
     {
         loader.texture(texture);
+    }
+    for camera in &scene.cameras {
+        loader.lens(&camera.lens);
     }
     let loaded = (!loader.failed).then_some(loader.loaded)?;
     check::survey(scene, &loaded, problems);
@@ -141,6 +152,9 @@ struct Loader<'a, 'b> {
 impl Loader<'_, '_> {
     fn shape(&mut self, handle: Handle<crate::ir::Shape>) {
         let scene = self.loaded.scene;
+        if let ShapeKind::Heightfield { heights: Heights::Image(texture), .. } = &scene.shapes[handle].kind {
+            return self.heights(texture.value);
+        }
         let ShapeKind::Mesh { file, skip_missing, .. } = &scene.shapes[handle].kind else { return };
         if !self.seen_shapes.insert(handle.index()) {
             return;
@@ -155,6 +169,22 @@ impl Loader<'_, '_> {
         if let Some(mesh) = self.mesh_at(path, &what) {
             self.loaded.meshes.insert(handle.index(), mesh);
         }
+    }
+
+    /// A picture of heights: of a size that makes a surface, and not one that fills the memory.
+    fn heights(&mut self, handle: Handle<Texture>) {
+        const MOST: u64 = 16_000_000;
+        self.texture(handle);
+        let Some(picture) = self.loaded.pictures.get(&handle.index()) else { return };
+        let (width, height) = (picture.width, picture.height);
+        let reason = match u64::from(width) * u64::from(height) {
+            _ if width < 2 || height < 2 => "heights take at least 2 x 2 pixels",
+            count if count > MOST => "heights take at most 16 million pixels: make it smaller",
+            _ => return,
+        };
+        let (name, used) = (picture.name.clone(), picture.span);
+        self.problems.push(LoadError::BadPicture { name, reason: reason.to_owned(), used });
+        self.failed = true;
     }
 
     fn mesh_at(&mut self, path: PathBuf, what: &Wanted<'_>) -> Option<Arc<LoadedMesh>> {
@@ -257,10 +287,12 @@ impl Loader<'_, '_> {
 
     fn texture(&mut self, handle: Handle<Texture>) {
         let scene = self.loaded.scene;
-        let TextureKind::Image(image) = &scene.textures[handle].kind else { return };
         if !self.seen_textures.insert(handle.index()) {
             return;
         }
+        let kind = &scene.textures[handle].kind;
+        kind.inputs().iter().for_each(|input| self.input(input));
+        let TextureKind::Image(image) = kind else { return };
         let what = Wanted {
             name: &image.file.value,
             span: image.file.span,
@@ -287,6 +319,24 @@ impl Loader<'_, '_> {
                 });
                 None
             }
+        }
+    }
+
+    fn lens(&mut self, lens: &Lens) {
+        let Lens::Prescription { file, .. } = lens else { return };
+        let what = Wanted { name: &file.value, span: file.span, skip: false, left_out: "" };
+        let Some(path) = self.locate(&what) else { return };
+        let table = self.read(&path, &what).and_then(|bytes| match lens::read(&bytes) {
+            Ok(table) => Some(table),
+            Err(error) => {
+                let (name, reason) = (file.value.clone(), error.to_string());
+                self.problems.push(LoadError::BadLens { name, reason, used: file.span });
+                None
+            }
+        });
+        match table {
+            Some(table) => drop(self.loaded.lenses.insert(file.span, table)),
+            None => self.failed = true,
         }
     }
 

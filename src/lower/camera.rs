@@ -1,11 +1,12 @@
 //! The camera, with its lens focused.
 
+use super::lens::{self, Focused};
 use super::{LowerError, object_bounds};
 use crate::ir::camera::Fov;
-use crate::ir::{self, Focus, Lens, PixelPoint};
+use crate::ir::{self, Focus, PixelPoint};
 use crate::load::Loaded;
 use crate::math::DVec3;
-use crate::render::camera::{CameraSpec, Filter, LensSpec};
+use crate::render::camera::{CameraSpec, Filter};
 use crate::source::{Span, Spanned};
 
 /// A camera ready to be built.
@@ -30,19 +31,7 @@ pub fn camera(
     let (width, height) = camera.film.size.value;
     let aspect = camera.film.aspect();
     let tan_half_fov_x = tan_half_fov_x(camera, aspect);
-    let lens = match &camera.lens {
-        Lens::Pinhole { .. } => None,
-        Lens::Thin { radius, focus, blades, rotation, .. } => {
-            let distance =
-                focus.as_ref().map(|focus| focus_distance(focus, camera, forward, loaded)).transpose()?;
-            distance.map(|distance| LensSpec {
-                radius: radius.value as f32,
-                focus_distance: distance as f32,
-                blades: blades.value,
-                rotation: rotation.value as f32,
-            })
-        }
-    };
+    let Focused { spec: lens, distance } = lens::lens(camera, tan_half_fov_x, aspect, loaded)?;
     let spec = CameraSpec {
         position: (camera.position.value - center).as_vec3(),
         direction: forward.as_vec3(),
@@ -58,18 +47,12 @@ pub fn camera(
             PixelPoint::Corner => Filter::Corner,
         },
     };
-    let distance = match lens {
-        Some(lens) => f64::from(lens.focus_distance),
-        None => (center - camera.position.value).length(),
-    };
+    let distance = distance.unwrap_or_else(|| (center - camera.position.value).length());
     Ok(Seen { spec, pixel_footprint: 2.0 * tan_half_fov_x * distance / f64::from(width) })
 }
 
 fn tan_half_fov_x(camera: &ir::Camera, aspect: f64) -> f64 {
-    let focal_length = match &camera.lens {
-        Lens::Pinhole { focal_length } | Lens::Thin { focal_length, .. } => focal_length,
-    };
-    match (camera.fov, focal_length) {
+    match (camera.fov, camera.lens.focal_length()) {
         (Some(fov), _) => match fov.value {
             Fov::Vertical(angle) => libm::tan(angle / 2.0) * aspect,
             Fov::Horizontal(angle) => libm::tan(angle / 2.0),
@@ -80,12 +63,12 @@ fn tan_half_fov_x(camera: &ir::Camera, aspect: f64) -> f64 {
 }
 
 /// The distance of the plane in focus, along the view axis, in metres.
-fn focus_distance(
+pub(super) fn focus_distance(
     focus: &Spanned<Focus>,
     camera: &ir::Camera,
-    forward: DVec3,
     loaded: &Loaded<'_>,
 ) -> Result<f64, LowerError> {
+    let forward = camera.direction.value.normalize();
     let along = |p: DVec3| (p - camera.position.value).dot(forward);
     let distance = match &focus.value {
         Focus::Distance(distance) => *distance,
@@ -113,5 +96,7 @@ fn filter(filter: ir::Filter) -> Filter {
         ir::Filter::Box(radius) => Filter::Box { radius: radius as f32 },
         ir::Filter::Tent(radius) => Filter::Tent { radius: radius as f32 },
         ir::Filter::Gaussian(radius) => Filter::Gaussian { radius: radius as f32 },
+        ir::Filter::Mitchell(radius) => Filter::Mitchell { radius: radius as f32 },
+        ir::Filter::BlackmanHarris(radius) => Filter::BlackmanHarris { radius: radius as f32 },
     }
 }

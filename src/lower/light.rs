@@ -1,12 +1,12 @@
 //! Lights: points and directions as they are, balls and parallelograms as shapes that emit.
 
-use super::Lowering;
 use super::tessellate::Triangles;
+use super::{Lowering, daylight};
 use crate::ir::light::{Brightness, LightKind};
 use crate::ir::{self};
-use crate::math::{DAffine3, DVec3, Rgb};
+use crate::math::{DAffine3, DMat3, DVec3, Rgb};
 use crate::render::bsdf::Material;
-use crate::render::light::{Falloff, Light};
+use crate::render::light::{Environment, Falloff, Light, Spot};
 use crate::render::shape::{Solid, SolidKind};
 use std::f64::consts::PI;
 
@@ -24,6 +24,41 @@ impl Lowering<'_> {
                 let direction = direction.value.normalize().as_vec3();
                 return Some(Light::Directional { direction, irradiance: irradiance(light) });
             }
+            LightKind::Spot { position, direction, angle, blend, falloff } => {
+                let half = angle.value / 2.0;
+                let cos = |angle: f64| libm::cos(angle) as f32;
+                let mut spot = Spot {
+                    p: (*position - self.center).as_vec3(),
+                    axis: direction.value.normalize().as_vec3().normalize(),
+                    cos_inner: cos(half * (1.0 - blend.value)),
+                    cos_outer: cos(half),
+                    intensity: Rgb::WHITE,
+                    falloff: Falloff(falloff.value.map(|x| x as f32)),
+                };
+                spot.intensity = match light.brightness.value {
+                    // The power is all that comes out, so a narrower cone is brighter.
+                    Brightness::Power(watts) => {
+                        of_unit_luminance(light.color) * (watts / f64::from(spot.power().r)) as f32
+                    }
+                    _ => intensity(light),
+                };
+                return Some(Light::Spot(spot));
+            }
+            LightKind::Disk { center, edge_u, edge_v, two_sided, .. } => {
+                let across = edge_u.cross(*edge_v);
+                let sides = if *two_sided { 2.0 } else { 1.0 };
+                let radiance = radiance(light.brightness.value, light.color, PI * across.length() * sides);
+                let frame = DMat3::from_cols(*edge_u, *edge_v, across / across.length().sqrt());
+                self.shapes.solids.push(Solid {
+                    kind: SolidKind::Disk,
+                    world_from_object: DAffine3::from_mat3_translation(frame, *center - self.center),
+                    texture_from_object: DAffine3::IDENTITY,
+                    material: self.materials.add(Material::Emissive { radiance, two_sided: *two_sided }),
+                    source,
+                });
+            }
+            // The sky is made an environment of.
+            LightKind::SunSky(_) => {}
             LightKind::Sphere { center, radius } => {
                 let area = 4.0 * PI * radius.value * radius.value;
                 let radiance = radiance(light.brightness.value, light.color, area);
@@ -32,7 +67,7 @@ impl Lowering<'_> {
                 let world_from_object =
                     DAffine3::from_translation(*center - self.center) * DAffine3::from_scale(scale);
                 let texture_from_object = DAffine3::IDENTITY;
-                self.solids.push(Solid {
+                self.shapes.solids.push(Solid {
                     kind: SolidKind::Sphere,
                     world_from_object,
                     texture_from_object,
@@ -51,6 +86,16 @@ impl Lowering<'_> {
         }
         None
     }
+}
+
+/// The sky of a light that is one.
+pub(super) fn sky(light: &ir::Light) -> Option<Environment> {
+    let LightKind::SunSky(day) = &light.kind else { return None };
+    let scale = match light.brightness.value {
+        Brightness::Power(value) | Brightness::Irradiance(value) => value as f32,
+        Brightness::Radiance(value) | Brightness::Intensity(value) => value.luminance(),
+    };
+    Some(Environment { radiance: daylight::radiance(day), scale, rotation: 0.0 })
 }
 
 /// The radiance of a surface of this area (both sides counted where both shine), in W·m⁻²·sr⁻¹: Φ = π·A·L.

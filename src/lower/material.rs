@@ -1,20 +1,22 @@
 //! Materials and textures, each lowered once; pictures are decoded once a file.
 
-use crate::asset::{ModelMaterial, Picture, Pixels, picture};
+mod texture;
+
+use crate::asset::{ModelMaterial, picture};
 use crate::ir::light::{Brightness, EnvironmentRadiance};
-use crate::ir::material::{CheckerCells, Input, MaterialKind, MetalColor, Projection, TextureKind};
-use crate::ir::{self, Handle, ImageUse};
+use crate::ir::material::{MaterialKind, MetalColor};
+use crate::ir::{self, Handle};
 use crate::load::{LoadError, Loaded, LoadedMesh, PictureFile};
-use crate::math::{Rgb, rgb};
-use crate::render::bsdf::{self, Material};
+use crate::math::Rgb;
+use crate::render::bsdf::{self, Glass, Material, Principled, Relief};
 use crate::render::light::{Environment, EnvironmentRadiance as Radiance};
 use crate::render::shape::MaterialId;
-use crate::render::texture;
-use crate::render::texture::{CheckerKind, Image, ImageFilter, ImageTexture, Texture, TextureId, Wrap};
+use crate::render::texture::{Image, Texture, TextureId};
 use crate::source::Files;
 use rustc_hash::FxHashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
+use texture::{Reading, Slot};
 
 /// The albedo of what says nothing about its material.
 const GRAY: Rgb = Rgb::gray(0.5);
@@ -29,8 +31,8 @@ pub struct Materials<'a> {
     textures: Vec<Texture>,
     by_handle: FxHashMap<usize, MaterialId>,
     by_model: FxHashMap<(usize, usize), MaterialId>,
-    texture_by_handle: FxHashMap<usize, TextureId>,
-    images: FxHashMap<PathBuf, Option<Arc<Image>>>,
+    texture_by_handle: FxHashMap<(usize, Slot), TextureId>,
+    images: FxHashMap<(PathBuf, Reading), Option<Arc<Image>>>,
     gray: Option<MaterialId>,
     failed: Vec<LoadError>,
 }
@@ -78,8 +80,8 @@ impl<'a> Materials<'a> {
     pub fn emits(&self, handle: Handle<ir::Material>) -> bool {
         match &self.loaded.scene.materials[handle].kind {
             MaterialKind::Emissive { .. } => true,
-            MaterialKind::Mix { a, b, .. } => self.emits(*a) || self.emits(*b),
-            _ => false,
+            MaterialKind::Principled(of) => !of.emission.value.is_black(),
+            kind => kind.parts().into_iter().any(|part| self.emits(part)),
         }
     }
 
@@ -104,22 +106,75 @@ impl<'a> Materials<'a> {
     fn lower(&mut self, handle: Handle<ir::Material>, radiance: &dyn Fn(Brightness, Rgb) -> Rgb) -> Material {
         let scene = self.loaded.scene;
         match &scene.materials[handle].kind {
-            MaterialKind::Diffuse { color } => Material::Diffuse { color: self.input(color) },
+            MaterialKind::Diffuse { color } => Material::Diffuse { color: self.color(color) },
             MaterialKind::Phong { diffuse, specular, shininess } => Material::Phong {
-                diffuse: self.input(diffuse),
-                specular: self.input(specular),
+                diffuse: self.color(diffuse),
+                specular: self.color(specular),
                 shininess: shininess.value as f32,
             },
-            MaterialKind::Mirror { color } => Material::Mirror { color: self.input(color) },
+            MaterialKind::Mirror { color } => Material::Mirror { color: self.color(color) },
             MaterialKind::Metal { color, roughness } => {
-                let f0 = match color {
-                    MetalColor::Named(_, f0) => bsdf::Input::Constant(*f0),
-                    MetalColor::Color(color) => self.input(color),
+                let constant = bsdf::Input::Constant;
+                let (f0, edge) = match color {
+                    MetalColor::Named { straight, edge, .. } => (constant(*straight), constant(*edge)),
+                    MetalColor::Color { straight, edge } => (self.color(straight), self.color(edge)),
                 };
-                Material::Metal { f0, roughness: self.input(roughness) }
+                Material::Metal { f0, edge, roughness: self.data(roughness) }
             }
-            MaterialKind::Glass { ior, tint, absorption } => {
-                Material::Glass { ior: ior.value as f32, tint: tint.value, absorption: *absorption }
+            MaterialKind::Glass { ior, roughness, tint, absorption, abbe, thin, priority } => {
+                Material::Glass(Glass {
+                    ior: ior.value as f32,
+                    tint: tint.value,
+                    absorption: *absorption,
+                    roughness: self.data(roughness),
+                    thin: thin.is_some(),
+                    priority: *priority,
+                    spread: abbe.map_or(0.0, |abbe| ((ior.value - 1.0) / abbe.value) as f32),
+                })
+            }
+            MaterialKind::Plastic { color, ior, roughness } => Material::Plastic {
+                color: self.color(color),
+                ior: ior.value as f32,
+                roughness: self.data(roughness),
+            },
+            MaterialKind::Layer { base, ior, roughness, cover } => Material::Layer {
+                base: self.of_scene(*base, radiance),
+                ior: ior.value as f32,
+                roughness: self.data(roughness),
+                cover: self.data(cover),
+            },
+            MaterialKind::Principled(of) => Material::Principled(Principled {
+                color: self.color(&of.color),
+                metallic: self.data(&of.metallic),
+                roughness: self.data(&of.roughness),
+                transmission: self.data(&of.transmission),
+                ior: of.ior.value as f32,
+                clearcoat: self.data(&of.clearcoat),
+                clearcoat_roughness: self.data(&of.clearcoat_roughness),
+                emission: of.emission.value,
+            }),
+            MaterialKind::Mask { base, opacity, cutoff } => Material::Mask {
+                base: self.of_scene(*base, radiance),
+                opacity: self.data(opacity),
+                cutoff: cutoff.unwrap_or(0.0) as f32,
+            },
+            MaterialKind::TwoSided { front, back } => {
+                let (front, back) = (self.of_scene(*front, radiance), self.of_scene(*back, radiance));
+                Material::TwoSided { front, back }
+            }
+            MaterialKind::NormalMap { base, map, strength } => {
+                let relief = match self.texture(map.value, Slot::Data) {
+                    bsdf::Input::Texture(map) => Some(Relief::NormalMap { map, strength: *strength as f32 }),
+                    bsdf::Input::Constant(_) => None,
+                };
+                self.relief(*base, relief, radiance)
+            }
+            MaterialKind::Bump { base, height, depth } => {
+                let relief = match self.texture(height.value, Slot::Data) {
+                    bsdf::Input::Texture(height) => Some(Relief::Bump { height, depth: *depth as f32 }),
+                    bsdf::Input::Constant(_) => None,
+                };
+                self.relief(*base, relief, radiance)
             }
             MaterialKind::Emissive { brightness, color } => {
                 Material::Emissive { radiance: radiance(brightness.value, *color), two_sided: false }
@@ -133,18 +188,31 @@ impl<'a> Materials<'a> {
                 ior,
                 fresnel,
             } => Material::Whitted {
-                diffuse: self.input(diffuse),
-                specular: self.input(specular),
+                diffuse: self.color(diffuse),
+                specular: self.color(specular),
                 shininess: shininess.value as f32,
-                reflection: self.input(reflection),
-                transmission: self.input(transmission),
+                reflection: self.color(reflection),
+                transmission: self.color(transmission),
                 ior: ior.value as f32,
                 fresnel: *fresnel,
             },
             MaterialKind::Mix { a, b, amount } => {
                 let (a, b) = (self.of_scene(*a, radiance), self.of_scene(*b, radiance));
-                Material::Mix { a, b, amount: self.input(amount) }
+                Material::Mix { a, b, amount: self.data(amount) }
             }
+        }
+    }
+
+    /// A material with a relief, or the material alone where the picture was left out.
+    fn relief(
+        &mut self,
+        base: Handle<ir::Material>,
+        relief: Option<Relief>,
+        radiance: &dyn Fn(Brightness, Rgb) -> Rgb,
+    ) -> Material {
+        match relief {
+            Some(relief) => Material::Relief { base: self.of_scene(base, radiance), relief },
+            None => self.lower(base, radiance),
         }
     }
 
@@ -170,9 +238,9 @@ impl<'a> Materials<'a> {
         }
         if material.is_clear() {
             let ior = material.ior.filter(|ior| *ior >= 1.0).unwrap_or(GLASS_IOR);
-            return Material::Glass { ior, tint: Rgb::WHITE, absorption: Rgb::BLACK };
+            return Material::Glass(Glass::of_ior(ior));
         }
-        let diffuse = match map.and_then(|map| self.image(map)) {
+        let diffuse = match map.and_then(|map| self.image(map, Reading::DISPLAY)) {
             Some(image) => self.plain_texture(image),
             None => bsdf::Input::Constant(albedo(material.diffuse.map_or(GRAY, Rgb::from))),
         };
@@ -184,84 +252,13 @@ impl<'a> Materials<'a> {
         }
     }
 
-    fn plain_texture(&mut self, image: Arc<Image>) -> bsdf::Input {
-        self.add_texture(Texture::Image(ImageTexture {
-            image,
-            wrap: Wrap::Repeat,
-            filter: ImageFilter::Linear,
-            uv_scale: glam::Vec2::ONE,
-            uv_offset: glam::Vec2::ZERO,
-            projection: texture::Projection::Uv,
-        }))
-    }
-
-    fn add_texture(&mut self, texture: Texture) -> bsdf::Input {
-        self.textures.push(texture);
-        bsdf::Input::Texture(TextureId(self.textures.len() as u32 - 1))
-    }
-
-    fn input(&mut self, input: &Input) -> bsdf::Input {
-        match input {
-            Input::Constant(color) => bsdf::Input::Constant(color.value),
-            Input::Texture(texture) => self.texture(texture.value),
-        }
-    }
-
-    fn texture(&mut self, handle: Handle<ir::Texture>) -> bsdf::Input {
-        if let Some(&known) = self.texture_by_handle.get(&handle.index()) {
-            return bsdf::Input::Texture(known);
-        }
-        let input = match &self.loaded.scene.textures[handle].kind {
-            TextureKind::Image(image) => self.image_texture(handle, image),
-            TextureKind::Checker(checker) => {
-                let kind = match checker.cells {
-                    CheckerCells::Uv(cells) => CheckerKind::Cells(cells.as_vec2()),
-                    CheckerCells::Solid(edge) => CheckerKind::Solid(edge as f32),
-                };
-                self.add_texture(Texture::Checker { a: checker.a.value, b: checker.b.value, kind })
-            }
-        };
-        if let bsdf::Input::Texture(id) = input {
-            self.texture_by_handle.insert(handle.index(), id);
-        }
-        input
-    }
-
-    fn image_texture(&mut self, handle: Handle<ir::Texture>, image: &ImageUse) -> bsdf::Input {
-        let wrap = match image.wrap {
-            ir::Wrap::Repeat => Wrap::Repeat,
-            ir::Wrap::Clamp => Wrap::Clamp,
-            ir::Wrap::Mirror => Wrap::Mirror,
-            ir::Wrap::Border(color) => Wrap::Border(color),
-        };
-        let Some(pixels) = self.loaded.picture(handle).and_then(|file| self.image(file)) else {
-            // Left out with a warning: all of it is border.
-            let color = if let Wrap::Border(color) = wrap { color } else { GRAY };
-            return bsdf::Input::Constant(color);
-        };
-        let projection = match image.projection {
-            Projection::Uv => texture::Projection::Uv,
-            Projection::Planar { origin, u, v } => {
-                texture::Projection::Planar { origin: origin.as_vec3(), u: u.as_vec3(), v: v.as_vec3() }
-            }
-        };
-        self.add_texture(Texture::Image(ImageTexture {
-            image: pixels,
-            wrap,
-            filter: if image.linear_filter { ImageFilter::Linear } else { ImageFilter::Nearest },
-            uv_scale: image.uv_scale.as_vec2(),
-            uv_offset: image.uv_offset.as_vec2(),
-            projection,
-        }))
-    }
-
     /// The environment; `None` when its picture was left out.
     pub fn environment(&mut self, environment: &ir::Environment) -> Option<Environment> {
         let radiance = match environment.radiance {
             EnvironmentRadiance::Constant(color) => Radiance::Constant(color),
             EnvironmentRadiance::Image(texture) => {
                 let file = self.loaded.picture(texture)?.clone();
-                Radiance::Image(self.image(&file)?)
+                Radiance::Image(self.image(&file, Reading::DISPLAY)?)
             }
         };
         Some(Environment {
@@ -271,35 +268,21 @@ impl<'a> Materials<'a> {
         })
     }
 
-    fn image(&mut self, file: &PictureFile) -> Option<Arc<Image>> {
-        if let Some(known) = self.images.get(&file.path) {
-            return known.clone();
-        }
+    /// The brightness of a picture as it is stored, from 0 to 1: how many in a row, and row by row.
+    pub fn heights(&mut self, texture: Handle<ir::Texture>) -> Option<(usize, Vec<f32>)> {
+        let file = self.loaded.picture(texture)?.clone();
         let bytes = self.files.read(&file.path).map_err(|error| error.to_string());
-        let image = match bytes.and_then(|bytes| picture::decode(&bytes).map_err(|error| error.to_string())) {
-            Ok(picture) => Some(Arc::new(linear(&picture))),
+        match bytes.and_then(|bytes| picture::brightness(&bytes).map_err(|error| error.to_string())) {
+            Ok(values) => Some((file.width as usize, values)),
             Err(reason) => {
                 self.failed.push(LoadError::BadPicture { name: file.name.clone(), reason, used: file.span });
                 None
             }
-        };
-        self.images.insert(file.path.clone(), image.clone());
-        image
+        }
     }
 }
 
 /// Reflectances of model files are often out of range; they are brought to where no energy is made.
 fn albedo(color: Rgb) -> Rgb {
     color.map(|x| x.clamp(0.0, 1.0))
-}
-
-fn linear(picture: &Picture) -> Image {
-    let texels = match &picture.pixels {
-        Pixels::Display(pixels) => {
-            let table: Vec<f32> = (0..=255u8).map(|x| rgb::srgb_to_linear(f32::from(x) / 255.0)).collect();
-            pixels.iter().map(|p| Rgb::from(p.map(|x| table[usize::from(x)]))).collect()
-        }
-        Pixels::Linear(pixels) => pixels.iter().map(|&p| Rgb::from(p)).collect(),
-    };
-    Image::new(picture.width, picture.height, texels)
 }

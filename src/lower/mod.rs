@@ -5,11 +5,16 @@
 
 mod camera;
 pub mod curve;
+mod daylight;
 mod error;
+mod heightfield;
+mod instance;
+mod lens;
 mod light;
 mod material;
 mod object;
 mod place;
+mod sweep;
 pub mod tessellate;
 
 use crate::diag::Problems;
@@ -18,12 +23,14 @@ use crate::load::Loaded;
 use crate::math::DVec3;
 use crate::plan::Plan;
 use crate::render::camera::Camera;
+use crate::render::geometry::Shapes;
 use crate::render::integrator::{ClassicSettings, Shading};
-use crate::render::shape::{Mesh, Solid, SourceId};
+use crate::render::shape::SourceId;
 use crate::render::world::{Parts, World};
-use crate::render::{Method, PpmSettings};
+use crate::render::{GatherRadius, HybridSettings, Method, PpmSettings};
 use crate::source::{Files, Span};
 pub use error::LowerError;
+use instance::Instances;
 use material::Materials;
 pub use place::object_bounds;
 
@@ -56,8 +63,8 @@ pub fn lower(
         loaded,
         center,
         materials: Materials::new(loaded, files),
-        meshes: Vec::new(),
-        solids: Vec::new(),
+        shapes: Shapes::default(),
+        instances: Instances::count(loaded),
         sources: Vec::new(),
     };
     for object in &loaded.scene.objects {
@@ -65,20 +72,32 @@ pub fn lower(
     }
     let lights = loaded.scene.lights.iter().filter_map(|light| lowering.light(light)).collect();
     let environment = loaded.scene.environment.as_ref().and_then(|e| lowering.materials.environment(e));
+    let environment = environment.or_else(|| loaded.scene.lights.iter().find_map(light::sky));
     let pixel = match plan.method {
         ir::Method::Classic => loaded.scene.render.classic.pixel,
         _ => ir::PixelPoint::Filter,
     };
     let camera = camera::camera(camera, pixel, loaded, center).map_err(|error| problems.push(error)).ok();
 
-    let Lowering { materials, meshes, solids, sources, .. } = lowering;
+    let Lowering { materials, shapes, sources, .. } = lowering;
+    let Shapes { meshes, shared, instances, solids } = shapes;
     let (materials, textures, failed) = materials.finish();
     let any_failed = !failed.is_empty();
     failed.into_iter().for_each(|error| problems.push(error));
     let camera = camera.filter(|_| !any_failed)?;
     let method = method(plan, &loaded.scene.render.classic, &camera);
     let camera = Camera::new(camera.spec);
-    let world = World::new(Parts { meshes, solids, materials, textures, lights, environment, camera });
+    let world = World::new(Parts {
+        meshes,
+        shared,
+        instances,
+        solids,
+        materials,
+        textures,
+        lights,
+        environment,
+        camera,
+    });
     Some(Lowered { world, method, sources, center })
 }
 
@@ -90,6 +109,14 @@ fn method(plan: &Plan, classic: &ir::Classic, camera: &camera::Seen) -> Method {
             shadows: classic.shadows,
             ambient: classic.ambient,
             lit_backs: classic.lit_backs,
+        }),
+        ir::Method::Hybrid => Method::Hybrid(HybridSettings {
+            photon_count: plan.photon_count,
+            k: plan.photon_k,
+            radius: plan.photon_radius.map_or(GatherRadius::Pixels(CAUSTIC_PIXELS_PER_RADIUS), |radius| {
+                GatherRadius::Meters(radius as f32)
+            }),
+            shrink: plan.photon_shrink,
         }),
         ir::Method::Ppm => Method::Ppm(PpmSettings {
             photon_count: plan.photon_count,
@@ -103,13 +130,16 @@ fn method(plan: &Plan, classic: &ir::Classic, camera: &camera::Seen) -> Method {
 /// The first gather radius in pixel footprints, unless the scene says otherwise.
 const PIXELS_PER_RADIUS: f64 = 4.0;
 
+/// The same for caustics in pixel footprints at the point itself: photons are few, aimed, and nothing else is blurred.
+const CAUSTIC_PIXELS_PER_RADIUS: f32 = 1.5;
+
 /// What has been lowered so far.
 struct Lowering<'a> {
     loaded: &'a Loaded<'a>,
     center: DVec3,
     materials: Materials<'a>,
-    meshes: Vec<Mesh>,
-    solids: Vec<Solid>,
+    shapes: Shapes,
+    instances: Instances,
     sources: Vec<Span>,
 }
 

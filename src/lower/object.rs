@@ -3,16 +3,18 @@
 use super::light::radiance;
 use super::place::{is_similarity, object_bounds};
 use super::tessellate::Triangles;
-use super::{Lowering, curve};
+use super::{Lowering, curve, heightfield, sweep};
 use crate::ir::{self, Object, RevolveMethod, ShapeKind};
 use crate::load::LoadedMesh;
-use crate::math::{DAffine3, DMat3, DVec2, DVec3};
+use crate::math::{DAffine3, DMat3, DVec2, DVec3, Vec3};
 use crate::render::shape::{Frustum, MaterialId, Mesh, Profile, Solid, SolidKind, SourceId, Torus};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Where a tessellation may leave its shape, as a share of the shape's size, unless the scene says otherwise.
 const RELATIVE_TOLERANCE: f64 = 1e-3;
+/// The same for tubes, as a share of their radius.
+const TUBE_TOLERANCE: f64 = 5e-3;
 /// The same for outlines, whose facets show at the silhouette of every pixel row.
 const OUTLINE_TOLERANCE: f64 = 1e-4;
 
@@ -42,7 +44,7 @@ impl Lowering<'_> {
                     source,
                 };
                 solid.material = self.material(written, || solid.area());
-                self.solids.push(solid);
+                self.shapes.solids.push(solid);
             }
             Form::Triangles(triangles) => {
                 let material = self.material(written, || area(&triangles, &object.world_from_object));
@@ -51,7 +53,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn form(&self, object: &Object) -> Option<Form> {
+    fn form(&mut self, object: &Object) -> Option<Form> {
         let scene = self.loaded.scene;
         let shape = &scene.shapes[object.shape];
         let emits = object.material.or(shape.material).is_some_and(|m| self.materials.emits(m));
@@ -95,6 +97,22 @@ impl Lowering<'_> {
                 let object_from_solid = ir::shape::upright(axis.value, *base);
                 Form::Exact { kind: SolidKind::Frustum(frustum), object_from_solid }
             }
+            ShapeKind::Sweep { path, radius, end_radius, caps, closed, tolerance } => {
+                let radii = [radius.value, end_radius.unwrap_or(*radius).value];
+                let tube = sweep::Tube { path, radii, caps: *caps, closed: *closed };
+                // A tube is seen by its width, however long it is.
+                let width = radii[0].max(radii[1]) * TUBE_TOLERANCE;
+                let tolerance = tolerance.map_or(width, |tolerance| tolerance.value);
+                Form::Triangles(sweep::tube(&tube, tolerance))
+            }
+            ShapeKind::Heightfield { heights, size, smooth } => {
+                let grid = match heights {
+                    ir::Heights::Grid { width, values, .. } => (*width, values.clone()),
+                    ir::Heights::Image(texture) => self.materials.heights(texture.value)?,
+                };
+                let heights = heightfield::Heights { width: grid.0, values: &grid.1, size: size.value };
+                Form::Triangles(heightfield::surface(&heights, *smooth))
+            }
             ShapeKind::Torus { center, normal, radius, tube } => {
                 let kind = SolidKind::Torus(Torus { major: radius.value, minor: tube.value });
                 Form::Exact { kind, object_from_solid: ir::shape::upright(normal.value, *center) }
@@ -122,8 +140,9 @@ impl Lowering<'_> {
                     }
                 }
             }
-            ShapeKind::Extrude { outline, holes, depth } => {
-                let tolerance = self.size(object) * OUTLINE_TOLERANCE;
+            ShapeKind::Extrude { outline, holes, depth, tolerance } => {
+                let usual = self.size(object) * OUTLINE_TOLERANCE;
+                let tolerance = tolerance.map_or(usual, |tolerance| tolerance.value);
                 Form::Triangles(Triangles::extrude(outline, holes, depth.value, tolerance))
             }
         })
@@ -142,18 +161,27 @@ impl Lowering<'_> {
     fn parts(
         &mut self,
         object: &Object,
-        mesh: &LoadedMesh,
+        mesh: &Arc<LoadedMesh>,
         scale: f64,
         smooth: Option<bool>,
         written: Option<ir::Handle<ir::Material>>,
         source: SourceId,
     ) {
-        for part in &mesh.model.parts {
-            let triangles = Triangles::part(part, scale, smooth);
+        // The power of a lamp is that of all its parts.
+        let whole = || {
+            let parts = mesh.model.parts.iter();
+            parts.map(|part| area(&Triangles::part(part, scale, smooth), &object.world_from_object)).sum()
+        };
+        for (i, part) in mesh.model.parts.iter().enumerate() {
             let material = match (written, part.material) {
                 (None, Some(index)) => self.materials.of_model(mesh, index),
-                _ => self.material(written, || area(&triangles, &object.world_from_object)),
+                _ => self.material(written, whole),
             };
+            if self.is_shared(object, mesh, i) {
+                self.instance(object, mesh, i, source, material);
+                continue;
+            }
+            let triangles = Triangles::part(part, scale, smooth);
             self.mesh(&triangles, &object.world_from_object, material, source);
         }
     }
@@ -171,19 +199,23 @@ impl Lowering<'_> {
             shape.positions.iter().map(|&p| to_world.transform_point3(p).as_vec3()).collect();
         let mirrored = to_world.matrix3.determinant() < 0.0;
         let turn = |t: [u32; 3]| if mirrored { [t[0], t[2], t[1]] } else { t };
-        let solid = |t: &[u32; 3]| {
-            // Rounding to single precision may flatten what double precision kept apart.
-            let [a, b, c] = t.map(|i| positions[i as usize].as_dvec3());
-            (b - a).cross(c - a) != DVec3::ZERO
-        };
-        let triangles: Vec<_> = shape.indices.iter().map(|&t| turn(t)).filter(solid).collect();
+        let indices: Vec<_> = shape.indices.iter().map(|&t| turn(t)).collect();
+        let triangles = solid_triangles(&positions, &indices);
         if triangles.is_empty() {
             return;
         }
         let normals = shape.normals.as_ref().map(|normals| world_normals(normals, &to_world.matrix3));
         let object_from_world = to_world.inverse();
         let uvs = shape.uvs.clone();
-        self.meshes.push(Mesh { positions, triangles, normals, uvs, material, object_from_world, source });
+        self.shapes.meshes.push(Mesh {
+            positions,
+            triangles,
+            normals,
+            uvs,
+            material,
+            object_from_world,
+            source,
+        });
     }
 
     /// The material of a shape with this area, which only a lamp asks for.
@@ -197,8 +229,17 @@ impl Lowering<'_> {
     }
 }
 
+/// The triangles that have an area: rounding to single precision may flatten what double precision kept apart.
+pub(super) fn solid_triangles(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+    let is_solid = |triangle: &&[u32; 3]| {
+        let [a, b, c] = triangle.map(|i| positions[i as usize].as_dvec3());
+        (b - a).cross(c - a) != DVec3::ZERO
+    };
+    triangles.iter().filter(is_solid).copied().collect()
+}
+
 /// Normals by the cofactor matrix, which is the inverse transpose up to scale and also serves flat transforms.
-fn world_normals(normals: &[DVec3], m: &DMat3) -> Vec<crate::math::Vec3> {
+fn world_normals(normals: &[DVec3], m: &DMat3) -> Vec<Vec3> {
     let cofactor =
         DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
     let sign = m.determinant().signum();
@@ -231,7 +272,7 @@ fn round_plate(center: DVec3, normal: DVec3, radius: f64) -> Triangles {
 }
 
 /// The area of triangles once they are placed, in m².
-fn area(shape: &Triangles, world_from_object: &DAffine3) -> f64 {
+pub(super) fn area(shape: &Triangles, world_from_object: &DAffine3) -> f64 {
     let corner = |i: u32| world_from_object.transform_point3(shape.positions[i as usize]);
     let double = |t: &[u32; 3]| {
         let [a, b, c] = t.map(corner);

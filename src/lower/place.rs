@@ -63,6 +63,15 @@ fn shape_bounds(object: &Object, loaded: &Loaded<'_>) -> Extent {
             let (min, max) = turned_bounds(&turned.profile)?;
             extent(corners(min, max).map(|corner| turned.object_from_profile.transform_point3(corner)))
         }
+        ShapeKind::Sweep { path, radius, end_radius, .. } => {
+            let reach = end_radius.map_or(radius.value, |end| end.value.max(radius.value));
+            let (min, max) = extent(path.points.iter().copied())?;
+            Some((min - reach, max + reach))
+        }
+        ShapeKind::Heightfield { heights, size, .. } => {
+            let (low, high) = heights.range();
+            extent([DVec3::new(0.0, low, 0.0) * size.value, DVec3::new(1.0, high, 1.0) * size.value])
+        }
         ShapeKind::Revolve { profile, .. } => turned_bounds(profile),
         ShapeKind::Extrude { outline, depth, .. } => {
             let (min, max) = curve_bounds(outline)?;

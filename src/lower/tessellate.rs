@@ -109,7 +109,7 @@ impl Triangles {
         }
     }
 
-    fn add_vertex(&mut self, p: DVec3, normal: DVec3, uv: Vec2) {
+    pub(super) fn add_vertex(&mut self, p: DVec3, normal: DVec3, uv: Vec2) {
         self.positions.push(p);
         self.normals.get_or_insert_default().push(normal);
         self.uvs.get_or_insert_default().push(uv);
@@ -128,7 +128,7 @@ impl Triangles {
         }
     }
 
-    fn join_rings(&mut self, base: u32, rings: u32, around: u32) {
+    pub(super) fn join_rings(&mut self, base: u32, rings: u32, around: u32) {
         let at = |ring: u32, j: u32| base + ring * (around + 1) + j;
         for ring in 0..rings - 1 {
             for j in 0..around {
@@ -178,7 +178,7 @@ pub fn has_materials(model: &Model) -> bool {
 }
 
 /// Segments of a circle of this radius whose chords stay within `tolerance`: r (1 − cos π/n) ≤ tolerance.
-fn segments_around(radius: f64, tolerance: f64) -> u32 {
+pub(super) fn segments_around(radius: f64, tolerance: f64) -> u32 {
     let cos = (1.0 - tolerance / radius).max(0.5);
     (std::f64::consts::PI / libm::acos(cos)).ceil().clamp(8.0, 4096.0) as u32
 }
@@ -200,14 +200,14 @@ fn vertex_normals(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::ir::{Curve, CurveKind};
     use crate::source::Span;
     use std::collections::BTreeMap;
 
     /// Every directed edge, by position, meets its reverse: the surface is closed and consistently oriented.
-    fn assert_closed(t: &Triangles) {
+    pub fn assert_closed(t: &Triangles) {
         let key = |i: u32| t.positions[i as usize].to_array().map(|x| (x + 0.0).to_bits());
         let mut edges: BTreeMap<_, i32> = BTreeMap::new();
         for triangle in &t.indices {
@@ -219,7 +219,7 @@ mod tests {
         assert!(edges.values().all(|&sum| sum == 0), "some edges are open");
     }
 
-    fn volume(t: &Triangles) -> f64 {
+    pub fn volume(t: &Triangles) -> f64 {
         let corner = |i: u32| t.positions[i as usize];
         t.indices.iter().map(|&[a, b, c]| corner(a).dot(corner(b).cross(corner(c))) / 6.0).sum()
     }

@@ -61,6 +61,11 @@ impl Rgb {
         ok(self.r) && ok(self.g) && ok(self.b)
     }
 
+    /// Whether every channel is finite.
+    pub fn is_finite(self) -> bool {
+        self.r.is_finite() && self.g.is_finite() && self.b.is_finite()
+    }
+
     /// `f` applied to each channel.
     pub fn map(self, f: impl Fn(f32) -> f32) -> Self {
         Self::new(f(self.r), f(self.g), f(self.b))

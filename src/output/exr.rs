@@ -1,11 +1,12 @@
-//! OpenEXR: radiance and its standard error as layers of one file.
+//! OpenEXR: radiance, its standard error and the number of samples as channels of one file.
 
 use super::Frame;
 use crate::math::Rgb;
 use exr::prelude::*;
 use std::io::{Seek, Write};
 
-/// Writes the picture: channels `R G B`, and `error.R error.G error.B` where the standard error is known.
+/// Writes the picture: channels `R G B`, `error.R error.G error.B` where the standard error is known, and `samples`
+/// where the numbers of samples are.
 pub fn encode(out: &mut (impl Write + Seek), frame: &Frame) -> std::io::Result<()> {
     let plane = |pixels: &[Rgb], channel: usize| {
         FlatSamples::F32(pixels.iter().map(|pixel| pixel[channel]).collect())
@@ -17,6 +18,9 @@ pub fn encode(out: &mut (impl Write + Seek), frame: &Frame) -> std::io::Result<(
             let name = format!("error.{name}");
             channels.push(AnyChannel::new(Text::from(name.as_str()), plane(&frame.standard_error, index)));
         }
+    }
+    if !frame.sample_counts.is_empty() {
+        channels.push(AnyChannel::new("samples", FlatSamples::U32(frame.sample_counts.clone())));
     }
     let software_name = Some(Text::from(concat!("snell ", env!("CARGO_PKG_VERSION"))));
     let mut attributes = LayerAttributes { software_name, ..LayerAttributes::default() };

@@ -203,7 +203,14 @@ mod tests {
 
     fn frame() -> Frame {
         let radiance = vec![Rgb::new(1.0, 0.5, 0.0), Rgb::gray(4.0), Rgb::BLACK, Rgb::gray(0.25)];
-        Frame { width: 2, height: 2, standard_error: vec![Rgb::gray(0.1); 4], radiance, facts: Vec::new() }
+        Frame {
+            width: 2,
+            height: 2,
+            standard_error: vec![Rgb::gray(0.1); 4],
+            radiance,
+            sample_counts: vec![1; 4],
+            facts: Vec::new(),
+        }
     }
 
     #[test]

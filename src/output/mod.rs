@@ -22,6 +22,8 @@ pub struct Frame {
     pub radiance: Vec<Rgb>,
     /// The standard error of each pixel's channels; empty when it is not known.
     pub standard_error: Vec<Rgb>,
+    /// How many samples each pixel has; empty when it is not known.
+    pub sample_counts: Vec<u32>,
     /// Facts about the render for formats that can hold them: names and values.
     pub facts: Vec<(String, String)>,
 }

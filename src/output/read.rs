@@ -170,7 +170,7 @@ fn read_exr(path: &Path, bytes: &[u8]) -> Result<Picture, ReadError> {
     };
     let layer = image.layer_data.iter().find(|layer| channels(layer, "").is_some());
     let Some((layer, radiance)) = layer.and_then(|layer| Some((layer, channels(layer, "")?))) else {
-        let found = image.layer_data.iter().flat_map(|layer| names(layer)).collect::<Vec<_>>().join(", ");
+        let found = image.layer_data.iter().flat_map(names).collect::<Vec<_>>().join(", ");
         return Err(ReadError::NoColor { path: path.to_owned(), found });
     };
     let facts = layer.attributes.other.iter().filter_map(|(name, value)| match value {
@@ -215,7 +215,8 @@ mod tests {
     fn frame(radiance: Vec<Rgb>) -> Frame {
         let standard_error = vec![Rgb::gray(0.125); radiance.len()];
         let facts = vec![("passes".to_owned(), "7".to_owned())];
-        Frame { width: 2, height: (radiance.len() / 2) as u32, radiance, standard_error, facts }
+        let (height, sample_counts) = ((radiance.len() / 2) as u32, vec![7; radiance.len()]);
+        Frame { width: 2, height, radiance, standard_error, sample_counts, facts }
     }
 
     fn written(name: &str, frame: &Frame) -> (tempfile::TempDir, PathBuf) {

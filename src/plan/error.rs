@@ -27,7 +27,7 @@ pub enum PlanWarning {
     #[diagnostic(
         code(snell::plan::endless_photons),
         severity(warning),
-        help("use `pt` or `auto`, or a `quad` instead of the plane")
+        help("use `hybrid`, `pt` or `auto`, or a `quad` instead of the plane")
     )]
     EndlessPhotons {
         /// The light.
@@ -38,7 +38,7 @@ pub enum PlanWarning {
         plane: Span,
     },
     /// Photons are kept where light is spread, and here nothing spreads it.
-    #[error("`ppm` finds no surface that photons could land on")]
+    #[error("there is no surface that photons could land on")]
     #[diagnostic(
         code(snell::plan::photons_without_receiver),
         severity(warning),

@@ -4,7 +4,7 @@ pub mod effects;
 mod error;
 
 use crate::diag::Problems;
-use crate::ir::light::LightKind;
+use crate::ir::light::{Environment, EnvironmentRadiance, LightKind};
 use crate::ir::{Camera, MaterialKind, Method, PixelPoint, ShapeKind};
 use crate::load::Loaded;
 use crate::source::Span;
@@ -45,6 +45,12 @@ impl Plan {
 const PHOTON_COUNT: u32 = 200_000;
 /// Photons a gather, unless the scene says otherwise.
 const PHOTON_K: u32 = 60;
+/// The same for caustics: a bound on the time that a focus may take, not a measure of detail.
+const CAUSTIC_PHOTON_K: u32 = 500;
+/// Camera paths to a photon for caustics.
+const PIXELS_PER_CAUSTIC_PHOTON: u64 = 4;
+/// The fewest and the most photons a pass for caustics, whatever the picture's size.
+const CAUSTIC_PHOTONS: (u64, u64) = (2_000, 4_000_000);
 /// The share of the radius kept: 2/3 balances noise and bias best (Kaplanyan & Dachsbacher 2013).
 const PHOTON_SHRINK: f64 = 2.0 / 3.0;
 /// The most vertices of a path, unless the scene says otherwise; roulette ends nearly all before.
@@ -60,9 +66,16 @@ pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, forced: Option<Method>
     let (method, why) = match (forced, written) {
         (Some(method), _) => (method, "asked for on the command line".to_owned()),
         (None, Some(method)) => (method, "asked for by the scene".to_owned()),
-        (None, None) => choose(loaded, &effects),
+        (None, None) => {
+            let (method, why) = choose(loaded, &effects);
+            (method, why.to_owned())
+        }
     };
     let photons = &render.photons;
+    let (photon_count, photon_k) = match method {
+        Method::Hybrid => (camera.map_or(PHOTON_COUNT, caustic_photons), CAUSTIC_PHOTON_K),
+        _ => (PHOTON_COUNT, PHOTON_K),
+    };
     let depth = if method == Method::Classic { CLASSIC_DEPTH } else { DEPTH };
     let draws =
         |used: &EffectUse| matches!(used.effect, Effect::LensBlur | Effect::SoftShadows | Effect::MeshLights);
@@ -72,13 +85,20 @@ pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, forced: Option<Method>
         effects,
         method,
         why,
-        photon_count: photons.count.map_or(PHOTON_COUNT, |count| count.value),
-        photon_k: photons.k.map_or(PHOTON_K, |k| k.value),
+        photon_count: photons.count.map_or(photon_count, |count| count.value),
+        photon_k: photons.k.map_or(photon_k, |k| k.value),
         photon_radius: photons.radius.map(|radius| radius.value),
         photon_shrink: photons.shrink.map_or(PHOTON_SHRINK, |shrink| shrink.value),
         depth: render.depth.map_or(depth, |depth| depth.value),
         is_exact,
     }
+}
+
+/// Photons a pass for caustics: so few beside camera paths that these take most of the time, for they bring most of the noise.
+fn caustic_photons(camera: &Camera) -> u32 {
+    let (width, height) = camera.film.size.value;
+    let (least, most) = CAUSTIC_PHOTONS;
+    (u64::from(width) * u64::from(height) / PIXELS_PER_CAUSTIC_PHOTON).clamp(least, most) as u32
 }
 
 /// Notes what the method of `plan` cannot do justice to.
@@ -92,7 +112,7 @@ pub fn warn(plan: &Plan, loaded: &Loaded<'_>, problems: &mut Problems) {
     let is_kept =
         [Effect::Indirect, Effect::Glossy, Effect::Textures].into_iter().any(|effect| plan.needs(effect));
     let specular = plan.effects.iter().find(|used| used.effect == Effect::Specular);
-    if let (Method::Ppm, false, Some(specular)) = (plan.method, is_kept, specular) {
+    if let (Method::Ppm | Method::Hybrid, false, Some(specular)) = (plan.method, is_kept, specular) {
         problems.push(PlanWarning::PhotonsWithoutReceiver { specular: specular.span });
     }
 }
@@ -107,7 +127,7 @@ fn classic_only(loaded: &Loaded<'_>, problems: &mut Problems) {
         }
     }
     for light in &scene.lights {
-        if let LightKind::Point { falloff, .. } = light.kind
+        if let Some(falloff) = light.kind.falloff()
             && falloff.value != LightKind::PHYSICAL
         {
             report("such a falloff", falloff.span);
@@ -118,7 +138,10 @@ fn classic_only(loaded: &Loaded<'_>, problems: &mut Problems) {
 /// A light from infinitely far and a plane without end.
 fn endless(loaded: &Loaded<'_>) -> Option<(Span, Span)> {
     let scene = loaded.scene;
-    let far = scene.lights.iter().find(|light| matches!(light.kind, LightKind::Directional { .. }));
+    let far = scene
+        .lights
+        .iter()
+        .find(|light| matches!(light.kind, LightKind::Directional { .. } | LightKind::SunSky(_)));
     let environment = scene.environment.as_ref().map(|environment| environment.span);
     let light = far.map(|light| light.span).or(environment)?;
     let is_plane =
@@ -131,24 +154,22 @@ pub fn suited(loaded: &Loaded<'_>, camera: Option<&Camera>) -> Method {
     choose(loaded, &effects::effects(loaded, camera)).0
 }
 
-/// Photon mapping where light reaches matt surfaces through something specular and paths from the camera would hardly
-/// ever find its source; path tracing otherwise.
-fn choose(loaded: &Loaded<'_>, effects: &[EffectUse]) -> (Method, String) {
-    let caustics = effects.iter().any(|used| used.effect == Effect::Caustics);
-    let hidden = loaded.scene.lights.iter().any(|light| {
-        matches!(
-            light.kind,
-            LightKind::Point { .. } | LightKind::Sphere { .. } | LightKind::Directional { .. }
-        )
-    });
-    if caustics && hidden && endless(loaded).is_some() {
-        return (Method::Pt, "photons from infinitely far cannot cover a plane without end".to_owned());
+/// Photons for the caustics where light from somewhere reaches matt surfaces by way of something sharp: paths from the
+/// camera would find its source by luck. Path tracing alone otherwise.
+fn choose(loaded: &Loaded<'_>, effects: &[EffectUse]) -> (Method, &'static str) {
+    let has = |effect| effects.iter().any(|used| used.effect == effect);
+    if !has(Effect::Caustics) {
+        return (Method::Pt, "no light reaches a matt surface by way of a specular one");
     }
-    match (caustics, hidden) {
-        (true, true) => {
-            (Method::Ppm, "small lights shine through or off something specular: caustics".to_owned())
-        }
-        (true, false) => (Method::Pt, "the lights are large enough for paths to find them".to_owned()),
-        (false, _) => (Method::Pt, "no light reaches a matt surface by way of a specular one".to_owned()),
+    let scene = loaded.scene;
+    let is_picture =
+        |environment: &Environment| matches!(environment.radiance, EnvironmentRadiance::Image(_));
+    let has_source = scene.lights.iter().any(|light| light.brightness.value.is_lit())
+        || scene.environment.as_ref().is_some_and(|sky| sky.is_lit() && is_picture(sky))
+        || has(Effect::MeshLights);
+    if has_source {
+        (Method::Hybrid, "lights shine through or off something specular: caustics")
+    } else {
+        (Method::Pt, "light comes from everywhere, and paths find it through anything specular")
     }
 }

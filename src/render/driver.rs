@@ -3,13 +3,17 @@
 //! A pass is one camera sample a pixel. Its tiles are computed by all threads and merged in their order, so that the
 //! film holds the same bits for any number of threads, and it always holds whole passes.
 
+mod stop;
+
+use super::camera::CameraRay;
 use super::film::{ErrorEstimate, Film, Region, Tile};
 use super::integrator::{Classic, ClassicSettings, Counters, Integrator, Pass, PathTracer, PhotonMapper};
 use super::sampler::Dim;
 use super::world::World;
-use crate::math::Vec2;
+use crate::math::{Rgb, Vec2};
 use rayon::prelude::*;
 use std::time::Instant;
+use stop::Stopping;
 
 /// The way light is simulated.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -18,6 +22,8 @@ pub enum Method {
     Pt,
     /// Progressive photon mapping.
     Ppm(PpmSettings),
+    /// Path tracing, with caustics from photons.
+    Hybrid(HybridSettings),
     /// Recursive ray tracing.
     Classic(ClassicSettings),
 }
@@ -35,14 +41,36 @@ pub struct PpmSettings {
     pub shrink: f64,
 }
 
+/// Settings of the caustics beside path tracing.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct HybridSettings {
+    /// Photons emitted in each pass.
+    pub photon_count: u32,
+    /// The most photons gathered at a point: a bound on the time it takes, where light is dense.
+    pub k: u32,
+    /// The largest radius of the first pass.
+    pub radius: GatherRadius,
+    /// The share α of photons kept as the radius shrinks, in (0, 1) (Knaus & Zwicker 2011).
+    pub shrink: f64,
+}
+
+/// How far photons are gathered.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum GatherRadius {
+    /// Equally far everywhere, in metres.
+    Meters(f32),
+    /// In widths of what a pixel covers at the point.
+    Pixels(f32),
+}
+
 /// When to stop: at whichever comes first. If none is set, after one pass.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Stop {
     /// After so many passes.
     pub passes: Option<u32>,
-    /// After so many seconds; the pass under way is finished.
+    /// After so many seconds. A pass that would end late is not begun, but for the first.
     pub seconds: Option<f64>,
-    /// When the picture's estimated error is below this.
+    /// When the error of the picture is below this, by the upper end of its interval.
     pub error: Option<f64>,
 }
 
@@ -66,7 +94,7 @@ pub trait Monitor: Sync {
     /// A pass was added to the film.
     fn pass_done(&self, progress: &Progress);
 
-    /// Whether to stop at once; the pass under way is dropped whole.
+    /// Whether to stop at once; the pass under way is dropped whole. Once so, always so.
     fn cancelled(&self) -> bool {
         false
     }
@@ -135,6 +163,9 @@ pub struct Outcome {
 pub fn render(world: &World, settings: &Settings, monitor: &dyn Monitor) -> Outcome {
     match settings.method {
         Method::Pt => run(PathTracer::new(world, settings.max_depth), world, settings, monitor),
+        Method::Hybrid(hybrid) => {
+            run(PathTracer::with_caustics(world, hybrid, settings.max_depth), world, settings, monitor)
+        }
         Method::Classic(classic) => {
             run(Classic::new(world, classic, settings.max_depth), world, settings, monitor)
         }
@@ -144,10 +175,6 @@ pub fn render(world: &World, settings: &Settings, monitor: &dyn Monitor) -> Outc
 
 /// Tiles of 16 × 16 pixels: many enough to balance threads, large enough to keep nearby paths together.
 const TILE_SIDE: u32 = 16;
-
-/// The first pass after which the error is looked at; then at each doubling, because stopping as soon as an estimate
-/// happens to be low would favour pictures that underrate their error.
-const FIRST_ERROR_CHECK: u32 = 16;
 
 fn run<I: Integrator>(
     mut integrator: I,
@@ -161,14 +188,15 @@ fn run<I: Integrator>(
     let tiles = region.tiles(TILE_SIDE);
     let mut film = Film::new(region);
     let mut stats = Stats::default();
+    let mut stopping = Stopping::new(settings.stop);
     let stopped_by = loop {
-        if let Some(reason) = reason_to_stop(&settings.stop, &film, start.elapsed().as_secs_f64()) {
+        if let Some(reason) = stopping.reason(&film, start.elapsed().as_secs_f64()) {
             break reason;
         }
         let pass = Pass { index: film.passes(), seed: settings.seed };
 
         let prepare = Instant::now();
-        integrator.begin_pass(pass, &mut stats.counters);
+        integrator.begin_pass(pass, &mut stats.counters, &|| monitor.cancelled());
         stats.prepare_seconds += prepare.elapsed().as_secs_f64();
 
         let camera = Instant::now();
@@ -179,7 +207,7 @@ fn run<I: Integrator>(
 
         let (samples, counters): (Vec<Tile>, Vec<Counters>) = done.into_iter().unzip();
         counters.into_iter().for_each(|tile| stats.counters += tile);
-        film.add_pass(&samples);
+        film.add_blurred_pass(&samples, integrator.blur());
         let seconds = start.elapsed().as_secs_f64();
         monitor.pass_done(&Progress { film: &film, seconds, counters: stats.counters });
     };
@@ -188,20 +216,6 @@ fn run<I: Integrator>(
     stats.bad_samples = film.bad_count();
     stats.seconds = start.elapsed().as_secs_f64();
     Outcome { error: film.error(), film, stats, stopped_by }
-}
-
-/// Whether the film is good enough, or time is up.
-fn reason_to_stop(stop: &Stop, film: &Film, seconds: f64) -> Option<StoppedBy> {
-    let passes = film.passes();
-    let unset = *stop == Stop::default();
-    if stop.passes.is_some_and(|most| passes >= most) || unset && passes >= 1 {
-        return Some(StoppedBy::Passes);
-    }
-    if stop.seconds.is_some_and(|most| passes >= 1 && seconds >= most) {
-        return Some(StoppedBy::Time);
-    }
-    let error = stop.error.filter(|_| passes >= FIRST_ERROR_CHECK && passes.is_power_of_two())?;
-    film.error().is_some_and(|estimate| estimate.error < error).then_some(StoppedBy::Error)
 }
 
 /// All tiles of a pass, in their order; `None` when cancelled.
@@ -225,8 +239,12 @@ fn render_tile<I: Integrator>(integrator: &I, world: &World, region: Region, pas
     let sample = |[x, y]: [u32; 2]| {
         let sampler = pass.camera_sampler(u64::from(y) << 32 | u64::from(x));
         let u_lens = if camera.has_lens() { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
-        let ray = camera.ray([x, y], sampler.get_2d(Dim::Filter), u_lens);
-        integrator.radiance(ray, &sampler, &mut counters)
+        let Some(CameraRay { ray, weight }) = camera.ray([x, y], sampler.get_2d(Dim::Filter), u_lens) else {
+            return Rgb::BLACK;
+        };
+        let radiance = integrator.radiance(ray, &sampler, &mut counters);
+        // What is no radiance stays none, whatever it weighs: the film counts it.
+        if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
     };
     let samples = region.pixels().map(sample).collect();
     (Tile { region, samples }, counters)

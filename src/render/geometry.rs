@@ -1,17 +1,21 @@
 //! All that can be hit, behind one interface: the tree over what is bounded, a list of what is not.
 
+mod gradient;
+mod instance;
 mod sampling;
 mod surface;
 
+pub use gradient::Gradient;
 pub use sampling::{AreaSample, DirectionSample, Outline};
 
-use super::accel::{Items, Wide, partition};
+use super::accel::Wide;
 use super::shape::solid::{PlacedSolid, SolidHit};
-use super::shape::{MaterialId, Mesh, Solid, SourceId};
+use super::shape::{Instance, MaterialId, Mesh, Solid, SourceId};
 use crate::math::{Bounds, Ray, Vec2, Vec3};
+use instance::{PlacedMesh, SharedMesh};
 use std::ops::Range;
 
-/// Index of a primitive: triangles first, mesh by mesh, then solids.
+/// Index of a primitive: triangles first, mesh by mesh, then those of each instance, then solids.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct PrimId(pub u32);
 
@@ -51,12 +55,28 @@ pub struct SurfacePoint {
     pub source: SourceId,
 }
 
+/// What geometry is made of.
+#[derive(Default)]
+pub struct Shapes {
+    /// Triangles, each mesh in one place.
+    pub meshes: Vec<Mesh>,
+    /// Triangles that instances place, in frames of their own.
+    pub shared: Vec<Mesh>,
+    /// The places of those.
+    pub instances: Vec<Instance>,
+    /// Exact shapes.
+    pub solids: Vec<Solid>,
+}
+
 /// All shapes of a scene.
 pub struct Geometry {
     meshes: Vec<Mesh>,
-    /// The first primitive of each mesh, then the first of the solids.
-    first_prims: Vec<u32>,
+    shared: Vec<SharedMesh>,
+    instances: Vec<PlacedMesh>,
     solids: Vec<PlacedSolid>,
+    /// The first primitive of each mesh, then of each instance, then of the solids.
+    first_prims: Vec<u32>,
+    /// Over the triangles of meshes and the boxes of instances and solids.
     tree: Wide,
     /// Solids that no box holds; every ray tries them all.
     unbounded: Vec<u32>,
@@ -65,6 +85,7 @@ pub struct Geometry {
 /// What a primitive index stands for.
 enum Prim<'a> {
     Triangle(&'a Mesh, [u32; 3]),
+    Placed(&'a PlacedMesh, &'a Mesh, [u32; 3]),
     Solid(&'a PlacedSolid),
 }
 
@@ -74,26 +95,47 @@ impl Geometry {
     /// # Panics
     /// When there are 2³² primitives or more.
     pub fn build(meshes: Vec<Mesh>, solids: Vec<Solid>) -> Self {
+        Self::new(Shapes { meshes, solids, ..Shapes::default() })
+    }
+
+    /// Builds a tree over each shared mesh, and one over everything.
+    ///
+    /// # Panics
+    /// When there are 2³² primitives or more.
+    pub fn new(shapes: Shapes) -> Self {
+        let Shapes { meshes, shared, instances, solids } = shapes;
+        let shared: Vec<_> = shared.into_iter().map(SharedMesh::new).collect();
+        let instances: Vec<_> = instances.into_iter().map(PlacedMesh::new).collect();
         let solids: Vec<_> = solids.into_iter().map(PlacedSolid::new).collect();
-        let mut first_prims = vec![0];
-        let mut triangles = Vec::with_capacity(meshes.iter().map(|mesh| mesh.triangles.len()).sum());
-        for mesh in &meshes {
-            triangles.extend(mesh.triangles.iter().map(|corners| mesh.corners(*corners)));
-            first_prims.push(u32::try_from(triangles.len()).expect("fewer than 2³² triangles"));
+        let placed = instances.iter().map(|placed| &shared[placed.instance.mesh].mesh);
+        let first_prims = running_sums(meshes.iter().chain(placed).map(|mesh| mesh.triangles.len()));
+
+        // Boxes: of instances, then of the solids that have one.
+        let mut boxes: Vec<_> = instances
+            .iter()
+            .map(|placed| placed.bounds(shared[placed.instance.mesh].tree.bounds()))
+            .collect();
+        let mut boxed: Vec<_> = (0..instances.len() as u32).collect();
+        let mut unbounded = Vec::new();
+        for (i, solid) in (0..).zip(&solids) {
+            match solid.bounds() {
+                Some(bounds) => {
+                    boxes.push(bounds);
+                    boxed.push(instances.len() as u32 + i);
+                }
+                None => unbounded.push(i),
+            }
         }
-        let bounds: Vec<_> = solids.iter().map(PlacedSolid::bounds).collect();
-        let unbounded = (0..).zip(&bounds).filter(|(_, bounds)| bounds.is_none()).map(|(i, _)| i).collect();
-        let (bounded, boxes): (Vec<_>, Vec<_>) =
-            (0..).zip(bounds).filter_map(|(i, bounds)| Some((i, bounds?))).unzip();
-        let partition = partition(&Items { triangles: &triangles, boxes: &boxes });
-        let tree = Wide::collapse(&partition, &triangles, &bounded);
-        Self { meshes, first_prims, solids, tree, unbounded }
+        let triangles = all_corners(&meshes);
+        let tree = Wide::new(&triangles, &boxes, &boxed);
+        Self { meshes, shared, instances, solids, first_prims, tree, unbounded }
     }
 
     /// The same geometry, traced by the code for any processor. It gives the same bits, only later.
     #[must_use]
     pub fn without_simd(mut self) -> Self {
         self.tree.without_simd();
+        self.shared.iter_mut().for_each(|shared| shared.tree.without_simd());
         self
     }
 
@@ -102,12 +144,12 @@ impl Geometry {
         self.tree.bounds()
     }
 
-    /// What the tree takes in memory, in bytes.
+    /// What the trees take in memory, in bytes.
     pub fn tree_bytes(&self) -> usize {
-        self.tree.bytes()
+        self.tree.bytes() + self.shared.iter().map(|shared| shared.tree.bytes()).sum::<usize>()
     }
 
-    /// The number of primitives: triangles first, mesh by mesh, then solids.
+    /// The number of primitives: triangles first, mesh by mesh and instance by instance, then solids.
     pub fn prim_count(&self) -> u32 {
         self.first_solid() + self.solids.len() as u32
     }
@@ -115,6 +157,18 @@ impl Geometry {
     /// The primitives of each mesh, in the order given.
     pub fn mesh_prims(&self) -> impl Iterator<Item = (&Mesh, Range<u32>)> {
         self.meshes.iter().zip(self.first_prims.windows(2).map(|pair| pair[0]..pair[1]))
+    }
+
+    /// The primitives of each instance, in the order given.
+    pub fn instance_prims(&self) -> impl Iterator<Item = (&Instance, Range<u32>)> {
+        let ranges = self.first_prims[self.meshes.len()..].windows(2).map(|pair| pair[0]..pair[1]);
+        self.instances.iter().map(|placed| &placed.instance).zip(ranges)
+    }
+
+    /// A box that holds each instance, in the order given.
+    pub fn instance_bounds(&self) -> impl Iterator<Item = (&Instance, Bounds)> {
+        let bounds = |placed: &PlacedMesh| placed.bounds(self.shared[placed.instance.mesh].tree.bounds());
+        self.instances.iter().map(move |placed| (&placed.instance, bounds(placed)))
     }
 
     /// The primitive of each solid, in the order given.
@@ -126,6 +180,7 @@ impl Geometry {
     pub fn material(&self, prim: PrimId) -> MaterialId {
         match self.prim(prim) {
             Prim::Triangle(mesh, _) => mesh.material,
+            Prim::Placed(placed, ..) => placed.instance.material,
             Prim::Solid(solid) => solid.solid().material,
         }
     }
@@ -134,6 +189,7 @@ impl Geometry {
     pub fn source(&self, prim: PrimId) -> SourceId {
         match self.prim(prim) {
             Prim::Triangle(mesh, _) => mesh.source,
+            Prim::Placed(placed, ..) => placed.instance.source,
             Prim::Solid(solid) => solid.solid().source,
         }
     }
@@ -149,7 +205,9 @@ impl Geometry {
         for &solid in &self.unbounded {
             nearest.offer(self.hit_solid(solid, ray));
         }
-        self.tree.trace::<false>(ray, &mut nearest, |solid| self.hit_solid(solid, ray));
+        self.tree.trace::<false>(ray, 0, &mut nearest, |boxed, nearest| {
+            self.hit_boxed::<false>(boxed, ray, nearest)
+        });
         nearest.hit
     }
 
@@ -162,7 +220,9 @@ impl Geometry {
             return true;
         }
         let mut nearest = Nearest { t: ray.t_max, hit: None };
-        self.tree.trace::<true>(ray, &mut nearest, |solid| self.hit_solid(solid, ray));
+        self.tree.trace::<true>(ray, 0, &mut nearest, |boxed, nearest| {
+            self.hit_boxed::<true>(boxed, ray, nearest)
+        });
         nearest.hit.is_some()
     }
 
@@ -171,20 +231,52 @@ impl Geometry {
         Some(Hit { t, prim: PrimId(self.first_solid() + solid), uv })
     }
 
+    /// Offers what the ray meets of an instance, or of a solid after those.
+    fn hit_boxed<const ANY: bool>(&self, boxed: u32, ray: &Ray, nearest: &mut Nearest) {
+        let Some(placed) = self.instances.get(boxed as usize) else {
+            return nearest.offer(self.hit_solid(boxed - self.instances.len() as u32, ray));
+        };
+        let Some(ray) = placed.ray_mesh(ray) else { return };
+        let first = self.first_prims[self.meshes.len() + boxed as usize];
+        // A shared mesh has nothing but triangles.
+        self.shared[placed.instance.mesh].tree.trace::<ANY>(&ray, first, nearest, |_, _| {});
+    }
+
     fn first_solid(&self) -> u32 {
-        self.first_prims[self.meshes.len()]
+        self.first_prims[self.meshes.len() + self.instances.len()]
     }
 
     fn prim(&self, prim: PrimId) -> Prim<'_> {
-        match prim.0.checked_sub(self.first_solid()) {
-            Some(solid) => Prim::Solid(&self.solids[solid as usize]),
-            None => {
-                let mesh = self.first_prims.partition_point(|&first| first <= prim.0) - 1;
-                let triangle = prim.0 - self.first_prims[mesh];
-                Prim::Triangle(&self.meshes[mesh], self.meshes[mesh].triangles[triangle as usize])
+        if let Some(solid) = prim.0.checked_sub(self.first_solid()) {
+            return Prim::Solid(&self.solids[solid as usize]);
+        }
+        let place = self.first_prims.partition_point(|&first| first <= prim.0) - 1;
+        let triangle = (prim.0 - self.first_prims[place]) as usize;
+        match place.checked_sub(self.meshes.len()) {
+            None => Prim::Triangle(&self.meshes[place], self.meshes[place].triangles[triangle]),
+            Some(instance) => {
+                let placed = &self.instances[instance];
+                let mesh = &self.shared[placed.instance.mesh].mesh;
+                Prim::Placed(placed, mesh, mesh.triangles[triangle])
             }
         }
     }
+}
+
+/// Where each of several runs of these lengths begins, and where the last ends.
+fn running_sums(lengths: impl Iterator<Item = usize>) -> Vec<u32> {
+    let mut sums = vec![0];
+    let mut sum = 0;
+    for length in lengths {
+        sum += length;
+        sums.push(u32::try_from(sum).expect("fewer than 2³² triangles"));
+    }
+    sums
+}
+
+/// The corners of all triangles, mesh by mesh.
+fn all_corners(meshes: &[Mesh]) -> Vec<[Vec3; 3]> {
+    meshes.iter().flat_map(|mesh| mesh.triangles.iter().map(|corners| mesh.corners(*corners))).collect()
 }
 
 /// The nearest hit so far.

@@ -17,5 +17,8 @@ pub mod shape;
 pub mod texture;
 pub mod world;
 
-pub use driver::{Method, Monitor, Outcome, PpmSettings, Progress, Settings, Stats, Stop, StoppedBy, render};
+pub use driver::{
+    GatherRadius, HybridSettings, Method, Monitor, Outcome, PpmSettings, Progress, Settings, Stats, Stop,
+    StoppedBy, render,
+};
 pub use world::{Parts, World};

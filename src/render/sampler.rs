@@ -4,7 +4,7 @@
 //! seed, pixel and name (Laine & Karras 2011; Burley 2020). No counter runs: what one effect draws cannot shift another,
 //! and every number follows from seed, pixel, sample index and name alone.
 
-use crate::math::Vec2;
+use crate::math::{Vec2, Vec3};
 
 /// A decision of a path; those made at every vertex carry the depth.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -29,6 +29,12 @@ pub enum Dim {
     PhotonPosition,
     /// Along which direction.
     PhotonDirection,
+    /// At which wavelength light goes through glass that spreads colours.
+    Wavelength,
+    /// Towards which of the targets.
+    PhotonTarget,
+    /// Whether a direction counts as sharply or as widely scattered.
+    Share(u32),
 }
 
 impl Dim {
@@ -41,11 +47,14 @@ impl Dim {
             Self::PhotonLight => 2,
             Self::PhotonPosition => 3,
             Self::PhotonDirection => 4,
+            Self::PhotonTarget => 12,
+            Self::Wavelength => 10,
             Self::Lobe(depth) => at(5, depth),
             Self::Bsdf(depth) => at(6, depth),
             Self::LightChoice(depth) => at(7, depth),
             Self::Light(depth) => at(8, depth),
             Self::Roulette(depth) => at(9, depth),
+            Self::Share(depth) => at(11, depth),
         }
     }
 }
@@ -113,6 +122,13 @@ fn mix(x: u64) -> u64 {
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     x ^ (x >> 31)
+}
+
+/// A number in [0, 1) that follows from a ray and what it meets: for choices that belong to no vertex of a path.
+pub fn hash_unit(o: Vec3, d: Vec3, item: u32) -> f32 {
+    let words = [o.x, o.y, o.z, d.x, d.y, d.z].map(f32::to_bits);
+    let hash = words.into_iter().chain([item]).fold(0, |hash, word| mix(hash ^ u64::from(word)));
+    to_unit((hash >> 32) as u32)
 }
 
 /// The upper 24 bits as a fraction: every result is exact and below 1.

@@ -1,11 +1,13 @@
 //! Everything a render needs, from plain data to ready tables.
 
-use super::bsdf::{Bsdf, Material, Materials};
+use super::bsdf::{Bsdf, Material, Materials, Relief, facing};
 use super::camera::Camera;
-use super::geometry::{Geometry, Hit, SurfacePoint};
+use super::geometry::{Geometry, Hit, Shapes, SurfacePoint};
 use super::light::{Environment, Light, Lights, Sky};
 use super::media::Media;
-use super::shape::{Mesh, Solid};
+use super::sampler::hash_unit;
+use super::shape::solid::orthogonal_tangent;
+use super::shape::{Instance, Mesh, Solid};
 use super::texture::Texture;
 use crate::math::{Ray, Rgb, Vec3};
 use std::time::Instant;
@@ -14,6 +16,10 @@ use std::time::Instant;
 pub struct Parts {
     /// Triangles.
     pub meshes: Vec<Mesh>,
+    /// Meshes that instances place.
+    pub shared: Vec<Mesh>,
+    /// Their places.
+    pub instances: Vec<Instance>,
     /// Exact shapes.
     pub solids: Vec<Solid>,
     /// What shapes refer to.
@@ -46,21 +52,50 @@ impl World {
     /// Builds the tree over the shapes, a light for each primitive that emits, and the table to choose among lights.
     pub fn new(parts: Parts) -> Self {
         let start = Instant::now();
-        let geometry = Geometry::build(parts.meshes, parts.solids);
+        let Parts { meshes, shared, instances, solids, .. } = parts;
+        let geometry = Geometry::new(Shapes { meshes, shared, instances, solids });
         let materials = Materials::new(parts.materials, parts.textures);
         let lights = Lights::new(parts.lights, parts.environment.map(Sky::new), &geometry, &materials);
         let build_seconds = start.elapsed().as_secs_f64();
         Self { geometry, materials, lights, camera: parts.camera, build_seconds }
     }
 
-    /// The nearest surface along a ray.
+    /// The nearest surface along a ray; through the holes of masks it goes on.
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
-        self.geometry.closest_hit(ray)
+        let hit = self.geometry.closest_hit(ray)?;
+        if self.materials.has_holes() { self.beyond_holes(ray, hit) } else { Some(hit) }
     }
 
     /// Whether anything lies on the ray before its end.
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        self.geometry.any_hit(ray)
+        self.geometry.any_hit(ray) && (!self.materials.has_holes() || self.closest_hit(ray).is_some())
+    }
+
+    /// The first hit that is no hole. `t` counts from the start of the ray.
+    fn beyond_holes(&self, ray: &Ray, mut hit: Hit) -> Option<Hit> {
+        /// More holes in a row than any foliage has: rays end.
+        const MOST: u32 = 1_000;
+        let (mut rest, mut behind) = (*ray, 0.0);
+        for _ in 0..MOST {
+            if !self.materials.is_mask(self.geometry.material(hit.prim)) {
+                return Some(Hit { t: behind + hit.t, ..hit });
+            }
+            let surface = self.geometry.surface_point(&rest, &hit);
+            if !self.is_hole(&rest, &surface) {
+                return Some(Hit { t: behind + hit.t, ..hit });
+            }
+            behind += hit.t;
+            rest = Ray { t_max: ray.t_max - behind, ..surface.spawn(ray.d) };
+            hit = self.geometry.closest_hit(&rest)?;
+        }
+        None
+    }
+
+    /// Whether a ray slips through. Of what is half there, half the rays do: a hash of the ray decides, so that no path
+    /// needs a number for it.
+    fn is_hole(&self, ray: &Ray, surface: &SurfacePoint) -> bool {
+        let opacity = self.materials.opacity(surface);
+        opacity < 1.0 && hash_unit(ray.o, ray.d, surface.prim.0) >= opacity
     }
 
     /// The full surface point of a hit.
@@ -75,12 +110,25 @@ impl World {
 
     /// How the surface scatters there, seen along `wo` from within `media`.
     pub fn bsdf_between(&self, surface: &SurfacePoint, wo: Vec3, media: &Media) -> Bsdf {
-        let bsdf = self.materials.bsdf(surface);
         let from_outside = wo.dot(surface.n) > 0.0;
-        match media.relative_ior(surface.material, from_outside, &self.materials) {
-            Some(ior) => bsdf.with_ior(ior),
+        let (material, relief) = self.materials.face(surface.material, from_outside);
+        let bsdf = match relief {
+            None => self.materials.bsdf_of(material, surface),
+            Some(relief) => self.materials.bsdf_of(material, &self.bent(surface, relief, wo)),
+        };
+        match media.boundary(surface.material, from_outside, &self.materials) {
+            Some(boundary) if boundary.hidden => bsdf.hidden(),
+            Some(boundary) => bsdf.with_ior(boundary.ior),
             None => bsdf,
         }
+    }
+
+    /// The surface with its normal bent by a relief, for a viewer along `wo`.
+    fn bent(&self, surface: &SurfacePoint, relief: Relief, wo: Vec3) -> SurfacePoint {
+        let gradient = self.geometry.gradient(surface);
+        let ns = self.materials.bent_normal(surface, relief, &gradient);
+        let ns = facing(ns, surface.n, wo);
+        SurfacePoint { ns, tangent: orthogonal_tangent(surface.tangent.as_dvec3(), ns), ..*surface }
     }
 
     /// The radiance that the surface emits along `wo`.

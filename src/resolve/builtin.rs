@@ -84,6 +84,8 @@ const RULES: &[(&str, Rule)] = &[
     ("box", Rule::Constructor),
     ("tent", Rule::Constructor),
     ("gaussian", Rule::Constructor),
+    ("mitchell", Rule::Constructor),
+    ("blackman_harris", Rule::Constructor),
     ("image", Rule::Constructor),
     ("bezier", Rule::Curve),
     ("bspline", Rule::Curve),

@@ -64,7 +64,6 @@ impl<'a> Resolver<'a> {
     ) -> Value<'a> {
         let definition = function.definition;
         let name = &definition.name;
-        self.called.insert(name.span);
         if self.calls.contains(&name.span) {
             let error = Error::Recursion { name: name.value.clone(), called: used, defined: name.span };
             return self.poison(error);
@@ -74,6 +73,34 @@ impl<'a> Resolver<'a> {
         // Without all of its arguments the body would tell of what is missing once more.
         if !complete {
             return Value::Poison;
+        }
+        self.called.insert(name.span);
+        self.trail.push(Step::Call(name, used));
+        let value = self.run(function, &scope);
+        self.trail.pop();
+        value
+    }
+
+    /// Calls a function with values in place of what could be written; one that takes fewer or more is a mistake.
+    pub(super) fn call_with(&mut self, function: &Function<'a>, args: &[Value<'a>], used: Span) -> Value<'a> {
+        let definition = function.definition;
+        let name = &definition.name;
+        self.called.insert(name.span);
+        if definition.formals.len() != args.len() {
+            let (function, found) = (name.value.clone(), definition.formals.len());
+            let wanted = format!("{} parameters", args.len());
+            let help = format!("define it as `fn {function}(u: number, v: number) -> number {{ .. }}`");
+            return self.poison(Error::ArgumentCount { function, wanted, found, used, help });
+        }
+        if self.calls.contains(&name.span) {
+            let error = Error::Recursion { name: name.value.clone(), called: used, defined: name.span };
+            return self.poison(error);
+        }
+        let scope = Scope::new(Some(Rc::clone(&function.scope)));
+        for (formal, value) in definition.formals.iter().zip(args) {
+            let ty = self.type_named(&formal.ty);
+            let value = ty.map_or(Value::Poison, |ty| self.coerce(value.clone(), ty, formal.ty.span));
+            scope.give(&formal.name.value, formal.name.span, value);
         }
         self.trail.push(Step::Call(name, used));
         let value = self.run(function, &scope);

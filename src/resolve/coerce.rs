@@ -25,6 +25,9 @@ impl<'a> Resolver<'a> {
             (_, ExprKind::Name(name)) if ty.words().is_some_and(|words| words.contains(&name.as_str())) => {
                 ty.words().and_then(|words| find_word(words, name)).map_or(Value::Poison, Value::Word)
             }
+            (Type::Exposure, ExprKind::Object(object)) if object.kind.value == "photo" => {
+                self.photo(object, env)
+            }
             (Type::Method, ExprKind::Object(object)) if object.kind.value == "classic" => {
                 let block = schema::block("classic").expect("declared in the registry");
                 Value::Block(std::rc::Rc::new(self.read(block, object.kind.span, &object.body, env)))
@@ -70,7 +73,7 @@ impl<'a> Resolver<'a> {
 
     /// A word that the scene does not define: what it means depends on the type.
     fn word_as(&mut self, name: &str, used: Span, ty: Type, env: &Env<'a>) -> Value<'a> {
-        let lens = |this: &mut Self, kind| {
+        let lens = |this: &mut Self, kind: &str| {
             let block = schema::block(kind).expect("declared in the registry");
             this.block(block, used, &EMPTY, env)
         };
@@ -83,8 +86,7 @@ impl<'a> Resolver<'a> {
         match (ty, name) {
             (Type::Exposure, "auto") => Value::Word("auto"),
             (Type::Projection, "uv") => Value::Projection(ir::Projection::Uv),
-            (Type::Lens, "pinhole") => lens(self, "pinhole"),
-            (Type::Lens, "thin") => lens(self, "thin"),
+            (Type::Lens, kind) if is_lens(kind) => lens(self, kind),
             (Type::Material, _) => match color::named(name) {
                 Some(color) => self.coerce(Value::Color(color), ty, used),
                 None => self.unknown_material(name, used, env),
@@ -129,6 +131,8 @@ impl<'a> Resolver<'a> {
             | (Type::Stop, value @ Value::Stop(_))
             | (Type::Projection, value @ Value::Projection(_))
             | (Type::Curve | Type::Outline, value @ Value::Curve(_))
+            | (Type::Path, value @ Value::Path(_))
+            | (Type::Heights, value @ (Value::Texture(_) | Value::List(_) | Value::Function(_)))
             | (Type::Absorption, value @ Value::Absorption(..))
             | (Type::List | Type::Outlines, value @ Value::List(_))
             | (Type::Block(_), value @ Value::Block(_))
@@ -138,6 +142,11 @@ impl<'a> Resolver<'a> {
             }
             (Type::Falloff, value @ Value::Tuple(_)) => self.plain_triple(value, ty, span),
             (Type::Outlines, value @ Value::Curve(_)) => Value::List([value].into()),
+            // A curve of the plane lies where z is 0.
+            (Type::Path, Value::Curve(curve)) => {
+                let points = curve.points.iter().map(|p| p.extend(0.0)).collect();
+                Value::Path(ir::Path { kind: curve.kind, points, span: curve.span }.into())
+            }
             (Type::Point | Type::Offset, value @ Value::Tuple(_)) => {
                 self.triple_as(value, Type::Length, ty, span)
             }
@@ -262,6 +271,9 @@ impl<'a> Resolver<'a> {
             (Type::Size, Value::Tuple(parts)) if let [Value::Number(w), Value::Number(h)] = parts[..] => {
                 format!("write `{} x {}`", w.value, h.value)
             }
+            (Type::Path, Value::List(_)) => format!("say how to join the points: `polyline {text}`"),
+            (Type::Curve, Value::Path(_)) => "points of a profile are (radius, height)".to_owned(),
+            (Type::Outline, Value::Path(_)) => "points of an outline are (x, y)".to_owned(),
             (Type::Curve, Value::List(_)) => format!("say how to join the points: `polyline {text}`"),
             (Type::Outline, Value::List(_)) => format!("say how to join the points: `polygon {text}`"),
             _ => format!("write {}, such as `{}`", ty.noun(), ty.example()),
@@ -284,10 +296,6 @@ impl<'a> Resolver<'a> {
 
 /// The report of a word that is none of those that may stand there.
 pub fn unknown_word(word: &str, words: &'static [&'static str], used: Span) -> Error {
-    if words == Type::METHODS && word == "hybrid" {
-        let help = "write `method: auto`, or choose `pt` or `ppm`".to_owned();
-        return Error::NotYet { word: word.to_owned(), used, help };
-    }
     let wanted = Type::Choice(words).noun();
     let ours = Type::foreign_word(word, words)
         .or_else(|| spelled_out(word).and_then(|unit| words.iter().copied().find(|word| *word == unit)));
@@ -299,7 +307,12 @@ pub fn unknown_word(word: &str, words: &'static [&'static str], used: Span) -> E
 }
 
 /// Words that mean something where some type or other is wanted.
-const WORDS: [&str; 4] = ["auto", "uv", "pinhole", "thin"];
+const WORDS: [&str; 8] =
+    ["auto", "uv", "pinhole", "thin", "orthographic", "panorama", "fisheye", "prescription"];
+
+fn is_lens(word: &str) -> bool {
+    schema::block(word).is_some_and(|block| Type::Lens.takes(block))
+}
 
 /// Whether a word means something where this type is wanted, whatever the scene defines.
 pub fn is_word_of(ty: Type, word: &str) -> bool {
@@ -307,7 +320,7 @@ pub fn is_word_of(ty: Type, word: &str) -> bool {
         _ if ty.words().is_some_and(|words| words.contains(&word)) => true,
         Type::Exposure => word == "auto",
         Type::Projection => word == "uv",
-        Type::Lens => ["pinhole", "thin"].contains(&word),
+        Type::Lens => is_lens(word),
         _ => false,
     }
 }

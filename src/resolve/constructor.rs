@@ -5,7 +5,7 @@ use super::{Env, Resolver, Value};
 use crate::diag::did_you_mean;
 use crate::ir::{self, CurveKind, Filter, Stop, TransformStep};
 use crate::math::float::sin_cos64;
-use crate::math::{DAffine3, DMat3, DVec2, DVec3};
+use crate::math::{DAffine3, DMat3, DVec3};
 use crate::schema::{self, Topic, Type};
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::{Arg, Expr, ExprKind, Name};
@@ -40,6 +40,8 @@ impl<'a> Resolver<'a> {
             "box" => Value::Filter(Filter::Box(x)),
             "tent" => Value::Filter(Filter::Tent(x)),
             "gaussian" => Value::Filter(Filter::Gaussian(x)),
+            "mitchell" => Value::Filter(Filter::Mitchell(x)),
+            "blackman_harris" => Value::Filter(Filter::BlackmanHarris(x)),
             "image" => self.image_file(first, used),
             _ => match self.matrix_of(name, args, x) {
                 Some(matrix) => Value::Transform([TransformStep { matrix, span: used }].into()),
@@ -168,8 +170,9 @@ impl<'a> Resolver<'a> {
         })
     }
 
+    /// In the plane or in space, as the points have two parts or three.
     fn curve(&mut self, kind: CurveKind, points: &'a Expr, span: Span, env: &Env<'a>) -> Value<'a> {
-        let points = match &points.kind {
+        let written = match &points.kind {
             ExprKind::List(parts) => parts
                 .iter()
                 .map(|part| self.written_point(part, env))
@@ -178,31 +181,48 @@ impl<'a> Resolver<'a> {
                 .collect(),
             _ => self.computed_points(points, env),
         };
-        points.map_or(Value::Poison, |points| Value::Curve(ir::Curve { kind, points, span }.into()))
+        let Some(written): Option<Vec<(DVec3, usize)>> = written else { return Value::Poison };
+        let in_space = written.iter().filter(|(_, parts)| *parts == 3).count();
+        if in_space == 0 {
+            let points = written.into_iter().map(|(p, _)| p.truncate()).collect();
+            return Value::Curve(ir::Curve { kind, points, span }.into());
+        }
+        if in_space < written.len() {
+            let help = "give all points two lengths, or all of them three";
+            return self.wrong_type(
+                "a list of points of one kind",
+                "one of both the plane and space",
+                span,
+                help,
+            );
+        }
+        let points = written.into_iter().map(|(p, _)| p).collect();
+        Value::Path(ir::Path { kind, points, span }.into())
     }
 
-    fn written_point(&mut self, point: &'a Expr, env: &Env<'a>) -> Option<DVec2> {
+    /// A point, and how many parts it has.
+    fn written_point(&mut self, point: &'a Expr, env: &Env<'a>) -> Option<(DVec3, usize)> {
         if let ExprKind::Tuple(parts) = &point.kind
-            && parts.len() == 2
+            && matches!(parts.len(), 2 | 3)
         {
-            return self.tuple_as(parts, Type::Length, env).triple().map(DVec3::truncate);
+            return Some((self.tuple_as(parts, Type::Length, env).triple()?, parts.len()));
         }
         let value = self.eval(point, env);
-        self.point2(value, point.span)
+        self.point_of(value, point.span)
     }
 
-    fn computed_points(&mut self, list: &'a Expr, env: &Env<'a>) -> Option<Vec<DVec2>> {
+    fn computed_points(&mut self, list: &'a Expr, env: &Env<'a>) -> Option<Vec<(DVec3, usize)>> {
         let Value::List(parts) = self.eval_as(list, Type::List, env) else { return None };
-        parts.iter().map(|part| self.point2(part.clone(), list.span)).collect()
+        parts.iter().map(|part| self.point_of(part.clone(), list.span)).collect()
     }
 
-    fn point2(&mut self, value: Value<'a>, span: Span) -> Option<DVec2> {
+    fn point_of(&mut self, value: Value<'a>, span: Span) -> Option<(DVec3, usize)> {
         match value {
             Value::Poison => None,
-            Value::Tuple(parts) if parts.len() == 2 => {
-                let x = self.coerce(parts[0].clone(), Type::Length, span);
-                let y = self.coerce(parts[1].clone(), Type::Length, span);
-                Value::Tuple([x, y].into()).triple().map(DVec3::truncate)
+            Value::Tuple(parts) if matches!(parts.len(), 2 | 3) => {
+                let lengths = parts.iter().map(|part| self.coerce(part.clone(), Type::Length, span));
+                let lengths: Vec<Value> = lengths.collect();
+                Some((Value::Tuple(lengths.into()).triple()?, parts.len()))
             }
             other => {
                 let help = "points of curves have two lengths, such as `(4cm, 10cm)`";

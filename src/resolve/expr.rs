@@ -356,7 +356,6 @@ impl<'a> Resolver<'a> {
 fn later(name: &str, used: Span) -> Option<Error> {
     let instead = match name {
         "moving" => "things stand still in this version: write one transform",
-        "mitchell" | "blackman_harris" => "use `gaussian(1.5px)`",
         _ => return None,
     };
     Some(Error::NotYet { word: name.to_owned(), used, help: instead.to_owned() })

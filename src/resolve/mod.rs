@@ -131,7 +131,7 @@ struct Resolver<'a> {
     running: Vec<Rc<Definition<'a>>>,
     /// The functions we are in, by the places of their names.
     calls: Vec<Span>,
-    /// The functions that were called at least once.
+    /// The functions whose bodies a call has come to at least once.
     called: FxHashSet<Span>,
     /// The parts that may be left out and were not, by the offsets at which they begin.
     entered: FxHashSet<u32>,

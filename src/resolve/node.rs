@@ -3,6 +3,7 @@
 use super::budget::{GROUPS, Limit};
 use super::error::Error;
 use super::{Resolver, Value};
+use crate::ir::light::Daylight;
 use crate::ir::{self, Handle, LightKind, TransformStep};
 use crate::math::DAffine3;
 use crate::source::{Span, Spanned};
@@ -206,6 +207,23 @@ impl<'a> Resolver<'a> {
                 let (edge_u, edge_v) = if mirrored { (v, u) } else { (u, v) };
                 LightKind::Rect { origin: world.transform_point3(origin), edge_u, edge_v, two_sided }
             }
+            LightKind::Spot { position, direction, angle, blend, falloff } => LightKind::Spot {
+                position: world.transform_point3(position),
+                direction: direction.map(|d| world.transform_vector3(d)),
+                angle,
+                blend,
+                falloff,
+            },
+            LightKind::Disk { center, edge_u, edge_v, radius, two_sided } => {
+                let mirrored = world.matrix3.determinant() < 0.0;
+                let (u, v) = (world.transform_vector3(edge_u), world.transform_vector3(edge_v));
+                let (edge_u, edge_v) = if mirrored { (v, u) } else { (u, v) };
+                LightKind::Disk { center: world.transform_point3(center), edge_u, edge_v, radius, two_sided }
+            }
+            LightKind::SunSky(ref day) => LightKind::SunSky(Daylight {
+                to_sun: day.to_sun.map(|d| world.transform_vector3(d)),
+                ..day.clone()
+            }),
             LightKind::Directional { direction } => {
                 LightKind::Directional { direction: direction.map(|d| world.transform_vector3(d)) }
             }

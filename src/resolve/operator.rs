@@ -4,7 +4,9 @@ use super::budget::Limit;
 use super::dimension::{Dimension, Quantity};
 use super::error::Error;
 use super::{Env, Resolver, Value};
-use crate::ir;
+use crate::ir::material::Join;
+use crate::ir::{self, Input};
+use crate::math::Rgb;
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::{BinaryOp, Expr, ExprKind};
@@ -75,6 +77,10 @@ impl<'a> Resolver<'a> {
                     _ => Value::Poison,
                 }
             }
+            (Multiply | BinaryOp::Add | BinaryOp::Subtract, Value::Texture(_), _)
+            | (Multiply | BinaryOp::Add | BinaryOp::Subtract, _, Value::Texture(_)) => {
+                self.textures(op, &left, &right)
+            }
             (Multiply, Value::Color(a), Value::Color(b)) => Value::Color(*a * *b),
             (BinaryOp::Add, Value::Color(a), Value::Color(b)) => Value::Color(*a + *b),
             (BinaryOp::Subtract, Value::Color(a), Value::Color(b)) => Value::Color(*a - *b),
@@ -109,6 +115,27 @@ impl<'a> Resolver<'a> {
                 })
             }
             _ => self.incompatible(op, &left, &right, None),
+        }
+    }
+
+    /// A texture joined with a texture, a colour or a plain number.
+    fn textures(&mut self, op: BinaryOp, left: &Operand<'a>, right: &Operand<'a>) -> Value<'a> {
+        let input = |side: &Operand<'a>| match &side.value {
+            Value::Texture(handle) => Some(Input::Texture(Spanned::new(*handle, side.span))),
+            Value::Color(color) => Some(Input::Constant(Spanned::new(*color, side.span))),
+            Value::Number(q) if q.dimension == Dimension::NONE => {
+                Some(Input::Constant(Spanned::new(Rgb::gray(q.value as f32), side.span)))
+            }
+            _ => None,
+        };
+        let join = match op {
+            BinaryOp::Add => Join::Add,
+            BinaryOp::Subtract => Join::Subtract,
+            _ => Join::Multiply,
+        };
+        match (input(left), input(right)) {
+            (Some(a), Some(b)) => self.join_textures(join, a, b, left.span.to(right.span)),
+            _ => self.incompatible(op, left, right, None),
         }
     }
 

@@ -30,6 +30,8 @@ pub enum Value<'a> {
     List(Rc<[Self]>),
     Transform(Rc<[TransformStep]>),
     Curve(Rc<ir::Curve>),
+    /// A curve in space.
+    Path(Rc<ir::Path>),
     Material(Handle<ir::Material>),
     Texture(Handle<ir::Texture>),
     Object(Rc<Node>),
@@ -87,6 +89,7 @@ impl Value<'_> {
             Self::List(_) => "a list",
             Self::Transform(_) => "a transform",
             Self::Curve(_) => "a curve",
+            Self::Path(_) => "a curve in space",
             Self::Material(_) => "a material",
             Self::Texture(_) => "a texture",
             Self::Object(_) => "an object",

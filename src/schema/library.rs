@@ -336,6 +336,22 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "Samples count by a bell curve, cut off at the radius.",
         "gaussian(1.5px)",
     ),
+    function(
+        Filters,
+        "mitchell",
+        RADIUS,
+        "a pixel filter",
+        "Samples count by the cubic of Mitchell and Netravali, negative at its rim: sharp edges.",
+        "mitchell(2px)",
+    ),
+    function(
+        Filters,
+        "blackman_harris",
+        RADIUS,
+        "a pixel filter",
+        "Samples count by the window of Blackman and Harris: smooth, and narrower than it looks.",
+        "blackman_harris(2px)",
+    ),
     // ── Stops ──────────────────────────────────────────────────────────────────────────────────────────────────
     function(Stops, "samples", COUNT, "a rule to stop by", "After so many samples a pixel.", "samples(64)"),
     function(

@@ -6,7 +6,7 @@ const RENDER: &[Field] = &[
     field(
         "method",
         Type::Method,
-        "Path tracing, photon mapping, whichever of them suits, or recursive ray tracing.",
+        "Path tracing, photon mapping, both in one (`hybrid`), whichever suits, or recursive ray tracing.",
     )
     .or_word("auto"),
     field("stop", Type::Stop, "When it is done: `samples`, `passes`, `time` or `error`, joined by `or`."),
@@ -18,7 +18,7 @@ const RENDER: &[Field] = &[
         .or(0.0)
         .within(Range::closed(0.0, 9.0e15))
         .like("7"),
-    field("photons", Type::Block("photons"), "For photon mapping; without it, chosen by the compiler.")
+    field("photons", Type::Block("photons"), "For `ppm` and `hybrid`; without it, chosen by the compiler.")
         .like("{ count: 200000, k: 60, radius: 5cm }"),
 ];
 
@@ -71,7 +71,7 @@ pub(super) const BLOCKS: &[Block] = &[
     Block {
         kind: "photons",
         area: Area::Render,
-        doc: "Settings of photon mapping.",
+        doc: "Settings of photons. `hybrid` sends few, straight at glass and mirrors, and gathers them within about a pixel.",
         example: "photons: { count: 200000, k: 60, radius: 5cm }",
         own: PHOTONS,
         choices: &[],

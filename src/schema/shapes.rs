@@ -101,23 +101,59 @@ const MESH: &[Field] = &[
         .or_word("error"),
 ];
 
+const TOLERANCE: Field = field(
+    "tolerance",
+    Type::Length,
+    "How far triangles may lie from it; without it, a thousandth of its size.",
+)
+.within(SIZE)
+.like("0.1mm");
+
 const REVOLVE: &[Field] = &[
     field("profile", Type::Curve, "Points (radius, height), turned about the y axis.").required(),
     field("method", Type::Choice(&["exact", "tessellated"]), "By its equation, or as triangles.")
         .or_word("exact"),
-    field(
-        "tolerance",
-        Type::Length,
-        "How far triangles may lie from it; without it, a thousandth of its size.",
-    )
-    .within(SIZE)
-    .like("0.1mm"),
+    TOLERANCE,
 ];
 
 const EXTRUDE: &[Field] = &[
     field("outline", Type::Outline, "Its edge in the xy plane; the last point joins the first.").required(),
     field("holes", Type::Outlines, "What is cut out of it."),
     field("depth", Type::Length, "It reaches from z = 0 to this.").required().within(SIZE).like("10cm"),
+    field(
+        "tolerance",
+        Type::Length,
+        "How far its sides may lie from a curve; without it, a ten-thousandth of its size.",
+    )
+    .within(SIZE)
+    .like("0.1mm"),
+];
+
+const SWEEP: &[Field] = &[
+    field("path", Type::Path, "The middle of the tube, through points of space.").required(),
+    field("radius", Type::Length, "From its middle to its side.").required().within(SIZE).like("2cm"),
+    field("end_radius", Type::Length, "The radius at its end; without it, the same.")
+        .within(Range::at_least(0.0).physical())
+        .like("1cm"),
+    field("caps", Type::Choice(&["flat", "round", "none"]), "What closes its ends.").or_word("flat"),
+    field("closed", Type::Bool, "Whether its end is joined to its start.").or_bool(false),
+    field("tolerance", Type::Length, "How far triangles may lie from it; without it, a 200th of its radius.")
+        .within(SIZE)
+        .like("0.1mm"),
+];
+
+const HEIGHTFIELD: &[Field] = &[
+    field(
+        "heights",
+        Type::Heights,
+        "Shares of the height: a picture, rows of numbers, or a function of two numbers from 0 to 1.",
+    )
+    .required(),
+    field("size", Type::Offset, "What it spans from the origin: width, height of a 1, depth.")
+        .required()
+        .like("(4m, 1m, 4m)"),
+    field("resolution", Type::Size, "How many points a function is asked for.").or_size(65, 65),
+    field("smooth", Type::Bool, "Whether normals are interpolated.").or_bool(true),
 ];
 
 const fn shape(kind: &'static str, own: &'static [Field], doc: &'static str, example: &'static str) -> Block {
@@ -168,6 +204,18 @@ pub(super) const BLOCKS: &[Block] = &[
         EXTRUDE,
         "An outline drawn out along z.",
         "extrude { outline: polygon [(0cm, 0cm), (4cm, 0cm), (0cm, 3cm)], depth: 1cm }",
+    ),
+    shape(
+        "sweep",
+        SWEEP,
+        "A tube along a curve.",
+        "sweep { path: bspline [(0m, 0m, 0m), (1m, 0m, 0m), (1m, 1m, 0m), (2m, 1m, 1m), (2m, 2m, 1m)], radius: 5cm }",
+    ),
+    shape(
+        "heightfield",
+        HEIGHTFIELD,
+        "Heights over a grid, such as a landscape.",
+        "heightfield { heights: [[0, 0, 0], [0, 1, 0], [0, 0, 0]], size: (2m, 50cm, 2m) }",
     ),
     shape("group", &[], "Several items that move together.", "group { sphere { radius: 30cm } }"),
 ];

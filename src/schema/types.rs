@@ -75,6 +75,10 @@ pub enum Type {
     Projection,
     /// A profile: `bezier`, `bspline` or `polyline`.
     Curve,
+    /// A curve in space.
+    Path,
+    /// A picture, a function, or rows of numbers.
+    Heights,
     /// An outline: `polygon`, `bezier` or `bspline`.
     Outline,
     /// A list of outlines.
@@ -108,9 +112,12 @@ const fn named(name: &'static str, ty: Type, doc: &'static str) -> NamedType {
 
 impl Type {
     /// The integrators.
-    pub const METHODS: &'static [&'static str] = &["auto", "pt", "ppm", "classic"];
+    pub const METHODS: &'static [&'static str] = &["auto", "pt", "ppm", "hybrid", "classic"];
     /// The laws of fading that have a name.
     pub const FALLOFFS: &'static [&'static str] = &["physical", "none"];
+
+    /// The blocks that are projections of pictures.
+    const PROJECTIONS: &'static [&'static str] = &["planar", "spherical", "cubic"];
 
     /// The types that a `param` or a function may name.
     pub const NAMED: &'static [NamedType] = &[
@@ -203,6 +210,8 @@ impl Type {
             Self::Stop => "a rule to stop by",
             Self::Projection => "a projection",
             Self::Curve => "a curve",
+            Self::Path => "a path",
+            Self::Heights => "a picture, a function or rows of numbers",
             Self::Outline => "an outline",
             Self::Outlines => "a list of outlines",
             Self::List => "a list",
@@ -247,6 +256,8 @@ impl Type {
             Self::Stop => "samples(64) or time(5min)",
             Self::Projection => "uv",
             Self::Curve => "polyline [(0m, 0m), (10cm, 20cm)]",
+            Self::Path => "polyline [(0m, 0m, 0m), (0m, 1m, 0m), (1m, 1m, 0m)]",
+            Self::Heights => "[[0, 0, 0], [0, 1, 0], [0, 0, 0]]",
             Self::Outline => "polygon [(0m, 0m), (1m, 0m), (0m, 1m)]",
             Self::Outlines => "[polygon [(0m, 0m), (1m, 0m), (0m, 1m)]]",
             Self::List => "[1, 2, 3]",
@@ -262,12 +273,13 @@ impl Type {
         match self {
             Self::Block(kind) => kind == block.kind,
             Self::Method => block.kind == "classic",
-            Self::Lens => block.area == Area::Camera && block.kind != "film",
-            Self::Projection => block.kind == "planar",
+            Self::Lens => block.area == Area::Camera && !matches!(block.kind, "film" | "photo" | "crop"),
+            Self::Exposure => block.kind == "photo",
+            Self::Projection => Self::PROJECTIONS.contains(&block.kind),
             Self::Texture | Self::ColorInput | Self::NumberInput => {
-                block.area == Area::Texture && block.kind != "planar"
+                block.area == Area::Texture && !Self::PROJECTIONS.contains(&block.kind)
             }
-            Self::SkyInput => block.kind == "image",
+            Self::SkyInput | Self::Heights => block.kind == "image",
             Self::Material => block.area == Area::Material,
             Self::Object => matches!(block.area, Area::Shape | Area::Light) && block.kind != "environment",
             _ => false,

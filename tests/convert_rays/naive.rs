@@ -353,6 +353,13 @@ fn shape(block: &Node, path: &Path) -> Option<Shape> {
         "TriangleMesh" => mesh(block, block.after("obj_file").first()?, path),
         "TinyObj" => mesh(block, block.words().first()?, path),
         "RevSurface" => Some(Shape::Turned(profile(block.blocks().next()?))),
+        // Both ends on the y axis.
+        "Cylinder" => {
+            let (words, radius) = (block.words(), block.number("radius")?);
+            let height = |at: usize| words.get(at + 2)?.parse().ok();
+            let ends = (0..words.len()).filter(|&at| words[at] == "endpoint").filter_map(height);
+            Some(Shape::Turned(ends.map(|y| (radius, y)).collect()))
+        }
         _ => None,
     }
 }

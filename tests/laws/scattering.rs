@@ -5,7 +5,9 @@ use super::statistics::{
 };
 use super::worlds::{color, diffuse, gray};
 use snell::math::{Rgb, Vec2, Vec3};
-use snell::render::bsdf::{Bsdf, Input, Material, Materials, Transport, fresnel_dielectric};
+use snell::render::bsdf::{
+    Bsdf, Glass, Input, Material, Materials, Principled, Transport, fresnel_dielectric,
+};
 use snell::render::geometry::{PrimId, SurfacePoint};
 use snell::render::shape::{MaterialId, SourceId};
 
@@ -37,17 +39,58 @@ fn phong(diffuse: f32, specular: f32, shininess: f32) -> Material {
 
 /// White metal whose width of slopes is `alpha`.
 fn metal(alpha: f32) -> Material {
-    Material::Metal { f0: gray(1.0), roughness: gray(alpha.sqrt()) }
+    Material::Metal { f0: gray(1.0), edge: gray(1.0), roughness: gray(alpha.sqrt()) }
+}
+
+fn plastic(color: f32, alpha: f32) -> Material {
+    Material::Plastic { color: gray(color), ior: 1.5, roughness: gray(alpha.sqrt()) }
+}
+
+fn ground(ior: f32, alpha: f32, thin: bool) -> Material {
+    Material::Glass(Glass { roughness: gray(alpha.sqrt()), thin, ..Glass::of_ior(ior) })
+}
+
+/// A coat over the second material.
+fn layer(alpha: f32, cover: f32) -> Material {
+    Material::Layer { base: MaterialId(1), ior: 1.5, roughness: gray(alpha.sqrt()), cover: gray(cover) }
+}
+
+fn principled(metallic: f32, transmission: f32, clearcoat: f32) -> Material {
+    Material::Principled(Principled {
+        color: color(0.9, 0.6, 0.2),
+        metallic: gray(metallic),
+        roughness: gray(0.6),
+        transmission: gray(transmission),
+        ior: 1.5,
+        clearcoat: gray(clearcoat),
+        clearcoat_roughness: gray(0.4),
+        emission: Rgb::BLACK,
+    })
 }
 
 fn mix(amount: f32) -> Material {
     Material::Mix { a: MaterialId(1), b: MaterialId(2), amount: gray(amount) }
 }
 
+fn mix_of(a: u32, b: u32) -> Material {
+    Material::Mix { a: MaterialId(a), b: MaterialId(b), amount: gray(0.5) }
+}
+
+/// Every way of scattering through a surface into more than one direction.
+fn passing_bsdfs() -> Vec<(&'static str, Bsdf)> {
+    vec![
+        ("ground glass", bsdf(&[ground(1.5, 0.25, false)])),
+        ("frosted diamond", bsdf(&[ground(2.4, 0.6, false)])),
+        ("ground pane", bsdf(&[ground(1.5, 0.25, true)])),
+        ("clear principled", bsdf(&[principled(0.2, 0.7, 0.5)])),
+    ]
+}
+
 /// Every way of scattering into more than one direction.
 fn smooth_bsdfs() -> Vec<(&'static str, Bsdf)> {
     let bent = Vec3::new(0.5, 0.2, 0.8).normalize();
-    let copper = Material::Metal { f0: color(0.95, 0.64, 0.54), roughness: gray(0.5) };
+    let copper = Material::Metal { f0: color(0.95, 0.64, 0.54), edge: gray(1.0), roughness: gray(0.5) };
+    let dipping = Material::Metal { edge: color(1.0, 0.8, 0.7), f0: gray(0.5), roughness: gray(0.6) };
     let on_bent = |material| Materials::new(vec![material], Vec::new()).bsdf(&surface(bent));
     vec![
         ("diffuse", bsdf(&[diffuse(0.8)])),
@@ -57,7 +100,11 @@ fn smooth_bsdfs() -> Vec<(&'static str, Bsdf)> {
         ("metal 0.2", bsdf(&[metal(0.2)])),
         ("metal 0.5", bsdf(&[metal(0.5)])),
         ("metal 1", bsdf(&[metal(1.0)])),
+        ("copper with a dip", bsdf(&[dipping])),
         ("mix", bsdf(&[mix(0.3), phong(0.5, 0.5, 10.0), copper])),
+        ("rough plastic", bsdf(&[plastic(0.8, 0.2)])),
+        ("layer", bsdf(&[layer(0.3, 0.7), mix_of(2, 3), copper, diffuse(0.8)])),
+        ("principled", bsdf(&[principled(0.3, 0.0, 0.6)])),
         ("bent diffuse", on_bent(diffuse(0.8))),
         ("bent metal", on_bent(copper)),
     ]
@@ -111,8 +158,53 @@ fn every_smooth_bsdf_draws_what_its_pdf_claims() {
 }
 
 #[test]
+fn every_bsdf_that_passes_light_draws_what_its_pdf_claims_on_both_sides() {
+    let n = 200_000;
+    let limit = significance(passing_bsdfs().len() * directions().len());
+    for (name, bsdf) in passing_bsdfs() {
+        for wo in directions() {
+            let on = |side: f32| move |w: Vec3| Vec3::new(w.x, w.y, w.z * side);
+            let half = ROWS * COLUMNS;
+            let mut counts = vec![0.0; 2 * half + 1];
+            for (u, u_lobe) in independent_points(n) {
+                let drawn = bsdf.sample(wo, u, u_lobe, Transport::Radiance);
+                let place = drawn.map(|s| match bin(s.wi) {
+                    Some(place) => place,
+                    None => half + bin(on(-1.0)(s.wi)).expect("on one of the sides"),
+                });
+                counts[place.unwrap_or(2 * half)] += 1.0;
+            }
+            let mut expected = integrate_bins(24, |wi| bsdf.pdf(wo, wi));
+            expected.extend(integrate_bins(24, |wi| bsdf.pdf(wo, on(-1.0)(wi))));
+            let total: f64 = expected.iter().sum();
+            let lost = counts[2 * half] / f64::from(n);
+            assert!((total + lost - 1.0).abs() < 6e-3, "{name} along {wo}: pdf {total} + lost {lost}");
+            expected.iter_mut().for_each(|share| *share *= f64::from(n));
+            expected.push(counts[2 * half]);
+            let p = chi_square(&counts, &expected);
+            assert!(p > limit, "{name} along {wo}: p = {p}");
+        }
+    }
+}
+
+#[test]
+fn through_a_surface_scattering_is_reciprocal_up_to_the_square_of_the_index() {
+    for (name, ior) in [("ground glass", 1.5_f32), ("frosted diamond", 2.4), ("ground pane", 1.0)] {
+        let (_, bsdf) = passing_bsdfs().into_iter().find(|(known, _)| *known == name).expect("one of them");
+        let square = |w: Vec3| if w.z > 0.0 { 1.0 } else { ior * ior };
+        for (a, b) in pairs(5_000) {
+            for b in [b, Vec3::new(b.x, b.y, -b.z)] {
+                let ab = bsdf.eval(a, b).r / (b.z.abs() * square(a));
+                let ba = bsdf.eval(b, a).r / (a.z.abs() * square(b));
+                assert!((ab - ba).abs() <= 5e-3 * ab.max(ba) + 1e-6, "{name}: {a} {b}: {ab} {ba}");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_weight_of_a_sample_is_value_over_density() {
-    for (name, bsdf) in smooth_bsdfs() {
+    for (name, bsdf) in smooth_bsdfs().into_iter().chain(passing_bsdfs()) {
         for wo in directions() {
             for (u, u_lobe) in points(2_000) {
                 let Some(s) = bsdf.sample(wo, u, u_lobe, Transport::Radiance) else { continue };
@@ -141,12 +233,12 @@ fn smooth_bsdfs_are_reciprocal_where_normals_are_real() {
 #[test]
 fn photons_scatter_by_the_adjoint_of_what_radiance_does() {
     // Flux from wo to wi is what wi sees by light from wo, in terms of real cosines (Veach 1997, section 5.3).
-    for (name, bsdf) in smooth_bsdfs() {
+    for (name, bsdf) in smooth_bsdfs().into_iter().chain(passing_bsdfs()) {
         for wo in directions().into_iter().filter(|wo| 0.05 < wo.z) {
             for (u, u_lobe) in points(1_000) {
                 let Some(s) = bsdf.sample(wo, u, u_lobe, Transport::Importance) else { continue };
                 let scattered = s.weight.r * s.pdf;
-                let seen = bsdf.eval(s.wi, wo).r * (s.wi.z / wo.z);
+                let seen = bsdf.eval(s.wi, wo).r * (s.wi.z / wo.z).abs();
                 assert!(
                     (scattered - seen).abs() <= 5e-3 * seen,
                     "{name} {wo} to {}: {scattered}, {seen}",
@@ -177,7 +269,7 @@ fn albedo(bsdf: &Bsdf, wo: Vec3, n: u32, transport: Transport) -> Rgb {
 
 #[test]
 fn nothing_reflects_more_than_it_receives() {
-    let glass = |ior| Material::Glass { ior, tint: Rgb::WHITE, absorption: Rgb::BLACK };
+    let glass = |ior| Material::Glass(Glass::of_ior(ior));
     let lossless =
         [("diffuse", diffuse(1.0)), ("mirror", Material::Mirror { color: gray(1.0) }), ("glass", glass(1.5))];
     for wo in directions() {
@@ -189,17 +281,92 @@ fn nothing_reflects_more_than_it_receives() {
             let albedo = albedo(&bsdf(&[phong(0.2, 0.8, shininess)]), wo, 20_000, Transport::Radiance).r;
             assert!(albedo < 1.001, "phong {shininess} along {wo}: {albedo}");
         }
-        for alpha in [1e-4, 1.1e-3, 1e-2, 0.1, 0.5, 1.0] {
-            let bsdf = bsdf(&[metal(alpha)]);
-            let albedo = albedo(&bsdf, wo, 20_000, Transport::Radiance).r;
-            assert!(albedo < 1.001, "metal {alpha} along {wo}: {albedo}");
-            assert!(alpha > 0.01 || wo.z.abs() < 0.1 || albedo > 0.99, "metal {alpha} along {wo}: {albedo}");
+    }
+}
+
+/// Widths of microfacet slopes, from below the one that counts as smooth to the roughest.
+const ALPHAS: [f32; 7] = [1e-4, 1.1e-3, 1e-2, 0.1, 0.3, 0.6, 1.0];
+
+#[test]
+fn white_metal_returns_all_light_at_every_width_and_angle() {
+    for alpha in ALPHAS {
+        let bsdf = bsdf(&[metal(alpha)]);
+        for cos in [1.0_f32, 0.8, 0.4, 0.1, 0.01, 1e-4] {
+            let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+            let albedo = albedo(&bsdf, wo, 40_000, Transport::Radiance).r;
+            // Where the table would have to bend between its nodes: grazing, and hardly rough.
+            let most = if cos < 0.05 { 8e-3 } else { 2.5e-3 };
+            assert!((albedo - 1.0).abs() < most, "metal {alpha} at {cos}: {albedo}");
             for (u, u_lobe) in points(2_000) {
                 let weight = bsdf.sample(wo, u, u_lobe, Transport::Radiance).map_or(0.0, |s| s.weight.r);
-                assert!((0.0..=1.000_01).contains(&weight), "metal {alpha} along {wo}: {weight}");
+                let most = if alpha > 0.05 && cos > 0.05 { 3.0 } else { 100.0 };
+                assert!((0.0..most).contains(&weight), "metal {alpha} at {cos}: {weight}");
             }
         }
     }
+}
+
+#[test]
+fn white_plastic_returns_all_light_and_coats_never_more() {
+    for alpha in ALPHAS {
+        for cos in [1.0_f32, 0.7, 0.3, 0.05] {
+            let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+            let seen = |materials: &[Material]| albedo(&bsdf(materials), wo, 40_000, Transport::Radiance);
+            let white = seen(&[plastic(1.0, alpha)]).r;
+            assert!((white - 1.0).abs() < 6e-3, "plastic {alpha} at {cos}: {white}");
+            for base in [diffuse(1.0), metal(0.3), metal(1e-4)] {
+                let coated = seen(&[layer(alpha, 1.0), base]).r;
+                assert!((0.8..1.004).contains(&coated), "layer {alpha} over {base:?} at {cos}: {coated}");
+            }
+            let all = seen(&[principled(0.5, 0.0, 1.0)]).max_component();
+            assert!(all < 1.004, "principled at {cos}: {all}");
+        }
+    }
+}
+
+#[test]
+fn ground_glass_and_panes_pass_on_no_more_than_they_receive() {
+    for wo in directions() {
+        for alpha in ALPHAS {
+            let bsdf = |thin| bsdf(&[ground(1.5, alpha, thin)]);
+            let [glass, pane] =
+                [false, true].map(|thin| albedo(&bsdf(thin), wo, 20_000, Transport::Importance).r);
+            assert!(glass < 1.001 && pane < 1.001, "{alpha} along {wo}: {glass} {pane}");
+            let steep = wo.z.abs() > 0.5;
+            assert!(
+                !steep || alpha > 0.02 || glass > 0.99 && pane > 0.99,
+                "{alpha} along {wo}: {glass} {pane}"
+            );
+            assert!(!steep || glass > 0.5 && pane > 0.3, "{alpha} along {wo}: {glass} {pane}");
+        }
+    }
+}
+
+#[test]
+fn a_pane_shows_what_is_behind_it_in_its_own_direction() {
+    let pane = bsdf(&[ground(1.5, 0.0, true)]);
+    for wo in directions() {
+        let s = pane.sample(wo, Vec2::ZERO, 0.999_999, Transport::Radiance).expect("something passes");
+        assert!((s.wi + wo).length() < 1e-6 && !s.through && s.eta == 1.0, "{s:?}");
+        assert_eq!(s.weight, Rgb::WHITE);
+    }
+}
+
+#[test]
+fn coloured_metal_keeps_what_its_facets_do_not_reflect() {
+    let copper = |alpha: f32| Material::Metal {
+        f0: color(0.95, 0.64, 0.54),
+        edge: color(1.0, 0.9, 0.85),
+        roughness: gray(alpha.sqrt()),
+    };
+    let mut last = Rgb::WHITE;
+    for alpha in ALPHAS {
+        let seen = albedo(&bsdf(&[copper(alpha)]), Vec3::Z, 40_000, Transport::Radiance);
+        assert!((0..3).all(|channel| seen[channel] < last[channel] + 2e-3), "rougher is not darker: {alpha}");
+        assert!(alpha > 0.02 || (seen.g - 0.64).abs() < 5e-3, "{alpha}: {seen:?}");
+        last = seen;
+    }
+    assert!(0.3 < last.g && last.g < 0.5, "{last:?}");
 }
 
 #[test]
@@ -210,7 +377,19 @@ fn an_overfull_phong_material_is_scaled_to_what_it_receives() {
 
 #[test]
 fn scattering_survives_grazing_directions() {
-    let materials = [diffuse(1.0), phong(0.5, 0.5, 1e5), metal(1e-2), metal(1.0)];
+    let materials = [
+        diffuse(1.0),
+        phong(0.5, 0.5, 1e5),
+        metal(1.1e-3),
+        metal(1e-2),
+        metal(1.0),
+        plastic(0.8, 0.01),
+        plastic(1.0, 1.0),
+        ground(1.5, 0.01, false),
+        ground(1.5, 1.0, false),
+        ground(1.5, 0.3, true),
+        principled(0.3, 0.4, 1.0),
+    ];
     for material in materials {
         let bsdf = bsdf(&[material]);
         for cos in [1e-3_f32, 1e-6, 1e-20, 0.0] {
@@ -267,7 +446,7 @@ fn fresnel_by_angles(cos: f64, eta: f64) -> f64 {
 
 #[test]
 fn glass_of_index_1_is_not_there() {
-    let glass = bsdf(&[Material::Glass { ior: 1.0, tint: Rgb::WHITE, absorption: Rgb::BLACK }]);
+    let glass = bsdf(&[Material::Glass(Glass::of_ior(1.0))]);
     for wo in directions() {
         for (u, u_lobe) in points(100) {
             let s = glass.sample(wo, u, u_lobe, Transport::Radiance).expect("everything passes");
@@ -279,7 +458,7 @@ fn glass_of_index_1_is_not_there() {
 
 #[test]
 fn refraction_obeys_its_law_and_reverses() {
-    let glass = bsdf(&[Material::Glass { ior: 1.5, tint: Rgb::WHITE, absorption: Rgb::BLACK }]);
+    let glass = bsdf(&[Material::Glass(Glass::of_ior(1.5))]);
     for wo in directions() {
         let ior = if wo.z > 0.0 { 1.5 } else { 1.0 / 1.5 };
         let s = glass.sample(wo, Vec2::ZERO, 0.999_999, Transport::Radiance).expect("something leaves");

@@ -1,7 +1,7 @@
 //! Small worlds with known answers.
 
 use snell::math::{DAffine3, DMat3, DVec3, Rgb, Vec2, Vec3};
-use snell::render::bsdf::{Input, Material};
+use snell::render::bsdf::{Glass, Input, Material};
 use snell::render::camera::{Camera, CameraSpec, Filter};
 use snell::render::film::Film;
 use snell::render::shape::{MaterialId, Mesh, Solid, SolidKind, SourceId};
@@ -84,6 +84,8 @@ pub fn camera(position: Vec3, direction: Vec3, tan: f32, side: u32) -> Camera {
 pub fn empty(camera: Camera) -> Parts {
     Parts {
         meshes: Vec::new(),
+        shared: Vec::new(),
+        instances: Vec::new(),
         solids: Vec::new(),
         materials: Vec::new(),
         textures: Vec::new(),
@@ -102,7 +104,7 @@ pub fn cornell(side: u32, specular: bool) -> Parts {
         Material::Diffuse { color: color(0.14, 0.45, 0.091) },
         emissive(15.0),
         Material::Mirror { color: gray(0.95) },
-        Material::Glass { ior: 1.5, tint: Rgb::WHITE, absorption: Rgb::BLACK },
+        Material::Glass(Glass::of_ior(1.5)),
     ];
     let (x, y, z) = (Vec3::X * 2.0, Vec3::Y * 2.0, Vec3::Z * 2.0);
     let corner = Vec3::new(-1.0, 0.0, -1.0);

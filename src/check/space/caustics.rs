@@ -23,8 +23,7 @@ impl Survey<'_> {
     /// One report: the method is the mistake, not each of the lights.
     fn missed(&self, method: Span) -> Option<SpaceError> {
         let lights = || self.scene.lights.iter().filter(|light| light.brightness.value.is_lit());
-        let sizeless = lights()
-            .find(|light| matches!(light.kind, LightKind::Point { .. } | LightKind::Directional { .. }));
+        let sizeless = lights().find(|light| light.kind.is_sizeless());
         if let Some(light) = sizeless {
             let object = self.things.iter().find(|thing| thing.stuff.is_specular)?.object.span;
             return Some(SpaceError::CausticsInvisible { light: light.span, object, method });

@@ -136,6 +136,14 @@ pub enum SpaceError {
         #[label("named here")]
         used: Span,
     },
+    #[error("this {what} is of glass, and its ends are open")]
+    #[diagnostic(code(snell::check::open_ends), severity(warning), help("{help}"))]
+    OpenEnds {
+        what: &'static str,
+        #[label("light that enters here has to meet a surface where it leaves")]
+        object: Span,
+        help: &'static str,
+    },
     #[error("`{name}` is of glass, and {said}")]
     #[diagnostic(
         code(snell::check::inside_out_glass),

@@ -5,7 +5,7 @@ use super::solid::{Form, Solid};
 use super::stuff::Glass;
 use super::surface::Surface;
 use super::{Meshes, OwnMaterial, SpaceError, Survey, Thing, corners, plane_of};
-use crate::ir::ShapeKind;
+use crate::ir::{Caps, ShapeKind};
 use crate::math::{DMat3, DVec2, DVec3};
 use crate::source::Span;
 use rustc_hash::FxHashSet;
@@ -83,7 +83,23 @@ impl Survey<'_> {
             let surface = Surface::weld_exactly(glass.flat_map(|part| corners(part, thing.kind)));
             surface_doubt(&surface, &file.value, file.span)
         });
-        doubts.collect()
+        doubts.chain(self.open_ends()).collect()
+    }
+
+    /// Tubes of glass without ends.
+    fn open_ends(&self) -> impl Iterator<Item = SpaceError> {
+        self.things.iter().filter(|thing| thing.stuff.clear.is_some()).filter_map(|thing| {
+            let close = "leave `caps` out, or write `caps: true`";
+            let (what, help) = match thing.kind {
+                ShapeKind::Cone { caps: false, top_radius: None, .. } => ("cylinder", close),
+                ShapeKind::Cone { caps: false, .. } => ("cone", close),
+                ShapeKind::Sweep { caps: Caps::None, closed: false, .. } => {
+                    ("tube", "leave `caps` out, or write `caps: round`")
+                }
+                _ => return None,
+            };
+            Some(SpaceError::OpenEnds { what, object: thing.object.span, help })
+        })
     }
 }
 
@@ -130,8 +146,10 @@ fn pair(a: &Clear<'_>, b: &Clear<'_>) -> Option<SpaceError> {
     if coincide(a, b) {
         return Some(SpaceError::CoincidentGlass { second, first });
     }
-    // Where alike glasses overlap they melt into one.
-    (a.glass != b.glass && overlap(a.solid, b.solid)).then_some(SpaceError::GlassOverlap { second, first })
+    // Where alike glasses overlap they melt into one; of others, the scene may say which fills the space.
+    let is_said = a.glass.priority != b.glass.priority;
+    (a.glass != b.glass && !is_said && overlap(a.solid, b.solid))
+        .then_some(SpaceError::GlassOverlap { second, first })
 }
 
 /// Whether two solids surely overlap without one being inside the other.

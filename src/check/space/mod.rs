@@ -177,6 +177,7 @@ impl<'a> Survey<'a> {
 fn lamp(light: &crate::ir::Light) -> Option<Lamp> {
     let reach = match light.kind {
         LightKind::Directional { direction } => Reach::Far(-direction.value.try_normalize()?),
+        LightKind::SunSky(_) => Reach::Around,
         ref kind => Reach::Here(Region::of_light(kind)?),
     };
     Some(Lamp { reach, span: light.span })

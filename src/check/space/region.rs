@@ -40,6 +40,18 @@ impl Region {
                 let turned = kind.turned()?;
                 Self::of_profile(&turned.profile)?.moved(&turned.object_from_profile)
             }
+            // The control points hold the path, and the tube reaches no farther from it than its radius.
+            ShapeKind::Sweep { path, radius, end_radius, .. } => {
+                let reach = end_radius.map_or(radius.value, |end| end.value.max(radius.value));
+                let Extent { min, max } = Extent::of(path.points.iter().copied())?;
+                Extent { min: min - reach, max: max + reach }.hull()
+            }
+            ShapeKind::Heightfield { heights, size, .. } => {
+                let (low, high) = heights.range();
+                let (y, z) = ([low, high].map(|share| share * size.value.y), size.value.z);
+                let min = DVec3::new(0.0, y[0].min(y[1]), 0.0);
+                Extent { min, max: DVec3::new(size.value.x, y[0].max(y[1]), z) }.hull()
+            }
             ShapeKind::Revolve { profile, .. } => Self::of_profile(profile)?,
             ShapeKind::Extrude { outline, depth, .. } => {
                 let (min, max) = control_box(outline)?;
@@ -64,7 +76,12 @@ impl Region {
             LightKind::Rect { origin, edge_u, edge_v, .. } => {
                 Some(Self::parallelogram(*origin, *edge_u, *edge_v))
             }
-            LightKind::Directional { .. } => None,
+            LightKind::Spot { position, .. } => Some(Self::point(*position)),
+            LightKind::Disk { center, edge_u, edge_v, .. } => {
+                let axes = DMat3::from_cols(*edge_u, *edge_v, DVec3::ZERO);
+                Some(Self::Round { center: *center, axes })
+            }
+            LightKind::Directional { .. } | LightKind::SunSky(_) => None,
         }
     }
 

@@ -178,7 +178,9 @@ impl Survey<'_> {
     /// The names that lenses are focused on: such an object may be there for nothing else.
     fn focus_targets(&self) -> FxHashSet<u32> {
         let focus = self.scene.cameras.iter().filter_map(|camera| match &camera.lens {
-            Lens::Thin { focus: Some(focus), .. } => Some(&focus.value),
+            Lens::Thin { focus: Some(focus), .. } | Lens::Prescription { focus: Some(focus), .. } => {
+                Some(&focus.value)
+            }
             _ => None,
         });
         focus.filter_map(|focus| if let Focus::On(id, _) = focus { Some(*id) } else { None }).collect()

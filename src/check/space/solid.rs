@@ -81,7 +81,7 @@ impl Solid {
                 own_region = Region::of_profile(&turned.profile);
                 (Form::Turned(Loop::of_profile(&turned.profile)?), turned.object_from_profile, None)
             }
-            ShapeKind::Extrude { outline, holes, depth } => {
+            ShapeKind::Extrude { outline, holes, depth, .. } => {
                 let holes = holes.iter().map(Loop::of_outline).collect::<Option<Vec<_>>>()?;
                 let form = Form::Drawn { outline: Loop::of_outline(outline)?, holes, depth: depth.value };
                 (form, DAffine3::IDENTITY, None)

@@ -25,6 +25,8 @@ pub(super) struct Stuff {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Glass {
     pub(super) ior: f64,
+    /// Of several that overlap, the highest fills the space.
+    pub(super) priority: i32,
     tint: Rgb,
     absorption: Rgb,
 }
@@ -91,11 +93,34 @@ fn stuff(kind: &MaterialKind, part: impl Fn(Handle<Material>) -> Stuff) -> Stuff
         MaterialKind::Whitted { transmission: Input::Constant(color), .. } if color.is_black() => Stuff::MATT,
         MaterialKind::Whitted { .. } => Stuff { is_specular: true, is_rough: true, ..Stuff::default() },
         MaterialKind::Mirror { .. } => Stuff { is_specular: true, is_rough: false, ..Stuff::MATT },
-        MaterialKind::Glass { ior, tint, absorption } => {
-            let glass = Glass { ior: ior.value, tint: tint.value, absorption: *absorption };
-            Stuff { clear: Some(glass), is_specular: true, ..Stuff::default() }
+        MaterialKind::Glass { thin: Some(_), roughness, .. } => clear(None, *roughness),
+        MaterialKind::Glass { ior, tint, absorption, priority, roughness, .. } => {
+            let (tint, absorption) = (tint.value, *absorption);
+            clear(Some(Glass { ior: ior.value, priority: *priority, tint, absorption }), *roughness)
         }
+        MaterialKind::Plastic { .. } => Stuff::MATT,
+        MaterialKind::Principled(of) => {
+            let base = if is_black(of.transmission) { Stuff::MATT } else { clear(None, of.roughness) };
+            Stuff { shines: !of.emission.value.is_black(), is_rough: true, ..base }
+        }
+        MaterialKind::Layer { base, .. } => Stuff { is_rough: true, ..part(*base) },
+        MaterialKind::Mask { base, .. } => Stuff { is_opaque: false, clear: None, ..part(*base) },
+        MaterialKind::TwoSided { front, back } => part(*front).and(part(*back)),
+        MaterialKind::NormalMap { base, .. } | MaterialKind::Bump { base, .. } => part(*base),
         MaterialKind::Emissive { .. } => Stuff { shines: true, is_lamp: true, ..Stuff::default() },
         MaterialKind::Mix { a, b, .. } => part(*a).and(part(*b)),
     }
+}
+
+/// Something that light goes through, as sharply as its roughness lets it.
+fn clear(glass: Option<Glass>, roughness: Input) -> Stuff {
+    let smooth = matches!(roughness, Input::Constant(color) if color.value.mean() < SHARP_ROUGHNESS);
+    Stuff { clear: glass, is_specular: smooth, is_rough: !smooth, ..Stuff::default() }
+}
+
+/// Glass smoother than this still gathers light into caustics.
+const SHARP_ROUGHNESS: f32 = 0.5;
+
+fn is_black(input: Input) -> bool {
+    matches!(input, Input::Constant(color) if color.is_black())
 }

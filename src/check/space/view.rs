@@ -6,7 +6,7 @@ use super::stuff::Stuff;
 use super::{Reach, SpaceError, Survey, Thing};
 use crate::ir::camera::Fov;
 use crate::ir::{Camera, Focus, Lens};
-use crate::math::DVec3;
+use crate::math::{DVec2, DVec3};
 use crate::source::Spanned;
 use std::f64::consts::FRAC_PI_4;
 
@@ -22,9 +22,7 @@ impl Survey<'_> {
 
     /// A lens focused on something that is all behind the camera.
     fn focus_behind(&self, camera: &Camera) -> Option<SpaceError> {
-        let Lens::Thin { focus: Some(Spanned { value: Focus::On(id, _), span }), .. } = &camera.lens else {
-            return None;
-        };
+        let Some(Spanned { value: Focus::On(id, _), span }) = camera.lens.focus() else { return None };
         let (eye, forward) = (camera.position.value, camera.direction.value);
         let mut named = self.things.iter().filter(|thing| thing.object.names.contains(id)).peekable();
         named.peek()?;
@@ -91,6 +89,10 @@ struct View {
 
 impl View {
     fn of(camera: &Camera) -> Option<Self> {
+        // What is no perspective has no pyramid, or no eye.
+        if !camera.lens.has_fov() {
+            return None;
+        }
         let eye = camera.position.value;
         let forward = camera.direction.value.try_normalize()?;
         let right = forward.cross(camera.up.value).try_normalize()?;
@@ -121,16 +123,15 @@ impl View {
 /// Whether light enters through a point: with an opening, what is beside the picture may still blur into it.
 fn is_point(camera: &Camera) -> bool {
     match &camera.lens {
-        Lens::Pinhole { .. } => true,
-        Lens::Thin { radius, .. } => radius.value == 0.0,
+        Lens::Pinhole { shift, .. } => *shift == DVec2::ZERO,
+        Lens::Thin { radius, shift, .. } => radius.value == 0.0 && *shift == DVec2::ZERO,
+        _ => false,
     }
 }
 
 /// Half of the picture's width at the distance 1.
 fn tan_half_fov_x(camera: &Camera, aspect: f64) -> f64 {
-    let focal_length = match &camera.lens {
-        Lens::Pinhole { focal_length } | Lens::Thin { focal_length, .. } => focal_length,
-    };
+    let focal_length = camera.lens.focal_length();
     match (camera.fov.map(|fov| fov.value), focal_length) {
         (Some(Fov::Vertical(angle)), _) => libm::tan(angle / 2.0) * aspect,
         (Some(Fov::Horizontal(angle)), _) => libm::tan(angle / 2.0),

@@ -4,13 +4,8 @@ use super::Reader;
 use super::quad::is_flat;
 use crate::convert::dialect::Dialect;
 use crate::convert::fields::{Field, Fields};
-use crate::convert::model::{Asset, Curve, Object, Profile, Shape, Step};
+use crate::convert::model::{Asset, Object, Shape, Step};
 use crate::math::DVec3;
-use crate::math::float::sin_cos64;
-use std::f64::consts::TAU;
-
-/// Corners of the circle that a torus is turned from.
-const TORUS_CORNERS: usize = 64;
 
 /// What some programs write after the file of a mesh.
 #[derive(Default)]
@@ -111,53 +106,45 @@ impl Reader<'_> {
         Some(Shape::Triangle { corners: [a, b, c] })
     }
 
-    /// A tube along the y axis, from the middle of its foot, without lids.
+    /// A tube without lids, between two points or from a foot upwards.
     pub(super) fn cylinder(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
         let head = fields.head.clone();
-        self.log.approximated(&head, "`revolve`, a tube along the y axis");
-        let radius = self.positive(fields, "radius", "its radius");
-        let foot = self.log.take_any(fields, &["center", "position", "origin"]);
-        let height = self.log.number(fields, "length v", "its height");
+        self.log.mapped(&head, "`cylinder`, without lids");
+        let radius = self.positive(fields, "radius", "`radius`");
         let mut ends = self.log.take_all(fields, "endpoint");
         for end in &ends {
-            self.log.mapped(&end.span, "one of its ends");
+            self.log.mapped(&end.span, "`base` or `top`");
         }
         let end = ends.pop().map(|end| end.vector());
-        let foot = foot.or(ends.pop()).map_or(DVec3::ZERO, |field| {
-            self.log.mapped(&field.span, "its foot");
+        let foot = self.log.take_any(fields, &["center", "position", "origin"]).or(ends.pop());
+        let base = foot.map_or(DVec3::ZERO, |field| {
+            self.log.mapped(&field.span, "`base`");
             field.vector()
         });
-        let top = height.map(|height| foot.y + height).or(end.map(|end| end.y));
-        let is_upright = foot.x == 0.0 && foot.z == 0.0;
-        let (Some(radius), Some(top), true) = (radius, top.filter(|top| *top != foot.y), is_upright) else {
-            self.log.not_convertible(
-                "this cylinder",
-                &head,
-                "where it ends, or that it stands on the y axis, is not said",
-            );
+        let height = self.log.number(fields, "length v", "how far it reaches");
+        let axis = self.log.vector(fields, "axis", "which way it stands").unwrap_or(DVec3::Y);
+        let top = end.or(height.map(|height| base + axis.normalize_or_zero() * height));
+        let is_long = |top: &DVec3| top.distance(base) > 1e-6 * top.length().max(base.length());
+        let Some(top) = top.filter(is_long) else {
+            self.log.not_convertible("this cylinder", &head, "where it ends is not said");
             return None;
         };
-        let points = vec![(radius, foot.y), (radius, top)];
-        Some(Shape::Revolve { profile: Profile { kind: Curve::Polyline, points } })
+        Some(Shape::Cylinder { base, top, radius: radius? })
     }
 
-    /// A ring around the y axis, of many corners.
+    /// A ring around the y axis.
     pub(super) fn torus(&mut self, fields: &mut Fields<'_>) -> Option<Shape> {
         let head = fields.head.clone();
-        self.log.approximated(&head, "`revolve`, with a circle of many corners");
-        let large = self.positive(fields, "large radius", "its radius");
-        let small = self.positive(fields, "small radius", "the radius of its tube");
-        let (large, small) = (large?, small?);
-        if small > large {
+        self.log.mapped(&head, "`torus`");
+        let large = self.positive(fields, "large radius", "`radius`");
+        let small = self.positive(fields, "small radius", "`tube`");
+        let (radius, tube) = (large?, small?);
+        if tube >= radius {
             let help = "write `R` greater than `r`";
-            self.log.bad_value("the tube of this torus is wider than its ring", &head, help);
+            self.log.bad_value("the tube of this torus is as wide as its ring", &head, help);
             return None;
         }
-        let points = (0..=TORUS_CORNERS).map(|i| {
-            let (sin, cos) = sin_cos64(TAU * (i % TORUS_CORNERS) as f64 / TORUS_CORNERS as f64);
-            ((large + small * cos).max(0.0), small * sin)
-        });
-        Some(Shape::Revolve { profile: Profile { kind: Curve::Polyline, points: points.collect() } })
+        Some(Shape::Torus { radius, tube })
     }
 
     /// A mesh and its placement: `v scale + offset`, and in the dialect of arsenal.txt z mirrored by `Y_inverse`.

@@ -317,7 +317,11 @@ fn shapes() {
             "disk { center: (0, 0, 0), normal: (0, 1, 0), radius: 2 }",
         ),
         ("Cube { min_p 1 0 0 max_p 0 1 1 }", "box { min: (0, 0, 0), max: (1, 1, 1) }"),
-        ("Torus { R 2 r 0.5 }", "revolve"),
+        ("Torus { R 2 r 0.5 }", "torus { radius: 2, tube: 0.5"),
+        (
+            "Cylinder { center 1 0 0 radius 2 height 3 }",
+            "cylinder { base: (1, 0, 0), top: (1, 3, 0), radius: 2",
+        ),
         ("TinyObj { ./mesh/a.obj }", "file: \"./mesh/a.obj\""),
         (
             "TriangleMesh { scale 2 offset 1 0 0 obj_file a.obj }",
@@ -326,7 +330,10 @@ fn shapes() {
         ("TriangleMesh { obj_file a.obj 2 1 0 0 }", "transform: scale(2) then translate(1, 0, 0)"),
         ("TriangleMesh { obj_file a.obj 3 }", "transform: scale(3)"),
         ("FFDCage { geometry TriangleMesh { obj_file a.obj } controls { 0 0 0 } }", "group { mesh {"),
-        ("Cylinder { endpoint 0 -1 0 endpoint 0 1 0 radius 2 }", "polyline [(2, -1), (2, 1)]"),
+        (
+            "Cylinder { endpoint 0 -1 0 endpoint 0 1 0 radius 2 }",
+            "cylinder { base: (0, -1, 0), top: (0, 1, 0), radius: 2, caps: false",
+        ),
         ("TriangleMesh { smooth obj_file a.obj }", "smooth: true"),
         ("TriangleMesh { obj_file a.obj use_BVH true }", "smooth: false"),
         ("TriangleMesh { obj_file a.obj scale 2 offset 0 0 0 Y_inverse }", "scale(2, 2, -2)"),

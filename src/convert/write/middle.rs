@@ -27,7 +27,8 @@ fn middles<'a>(objects: &'a [Object], outer: &mut Vec<&'a [Step]>, visit: &mut d
             Shape::Quad { origin, edge_u, edge_v } => Some(*origin + 0.5 * (*edge_u + *edge_v)),
             Shape::Disk { center, .. } => Some(*center),
             Shape::Cuboid { min, max } => Some(0.5 * (*min + *max)),
-            Shape::Mesh { .. } => Some(DVec3::ZERO),
+            Shape::Cylinder { base, top, .. } => Some(0.5 * (*base + *top)),
+            Shape::Mesh { .. } | Shape::Torus { .. } => Some(DVec3::ZERO),
             Shape::Revolve { profile } => {
                 let heights = || profile.points.iter().map(|point| point.1);
                 let sum =

@@ -67,6 +67,14 @@ pub fn shape_value(shape: &Shape, look: Option<&Look>, placement: Vec<Entry>) ->
             ("disk ", fields)
         }
         Shape::Cuboid { min, max } => ("box ", points(&[("min", min), ("max", max)])),
+        Shape::Cylinder { base, top, radius } => {
+            let mut fields = points(&[("base", base), ("top", top)]);
+            fields.extend([Entry::field("radius", number(*radius)), Entry::field("caps", "false")]);
+            ("cylinder ", fields)
+        }
+        Shape::Torus { radius, tube } => {
+            ("torus ", vec![Entry::field("radius", number(*radius)), Entry::field("tube", number(*tube))])
+        }
         Shape::Mesh { file, smooth } => ("mesh ", mesh_fields(file, *smooth)),
         Shape::Revolve { profile } => ("revolve ", vec![Entry::field("profile", profile_value(profile))]),
         Shape::Group(_) => ("group ", Vec::new()),

@@ -1,4 +1,4 @@
-//! Finding what a ray meets among many: space is split first ([`build`]), then put into the shape that rays like ([`wide`]).
+//! Finding what a ray meets among many: a partition of it all ([`build`]), put into the shape that rays like ([`wide`]).
 
 pub mod build;
 mod clip;

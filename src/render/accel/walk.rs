@@ -1,10 +1,10 @@
 //! The way of a ray through the tree.
 
 use super::kernel::{BoxRay, EXIT_SLACK, Kernel};
-use super::wide::{Child, Kind, Wide};
+use super::wide::{Child, Kind, Node, Row, Wide};
 use crate::math::Ray;
 use crate::render::geometry::{Hit, Nearest, PrimId};
-use crate::render::shape::triangle::ShearedRay;
+use crate::render::shape::triangle::{ShearedRay, TriangleBlock};
 
 /// Stacks up to this size need no memory from the heap.
 const SMALL_STACK: usize = 96;
@@ -15,24 +15,21 @@ pub struct Query<'a> {
     pub tree: &'a Wide,
     /// The ray.
     pub ray: &'a Ray,
-    /// Where the ray meets a solid.
-    pub hit_solid: &'a dyn Fn(u32) -> Option<Hit>,
-}
-
-/// A node or leaf yet to be visited, and where the ray enters its box.
-#[derive(Clone, Copy, Default)]
-struct Entry {
-    t: f32,
-    child: Child,
+    /// The primitive of the tree's first triangle.
+    pub first_prim: u32,
+    /// Offers what the ray meets of something in a box.
+    pub hit_boxed: &'a dyn Fn(u32, &mut Nearest),
 }
 
 /// Offers to `nearest` what can come before it; with `ANY`, stops at the first that does.
 #[inline(always)]
 pub fn walk<K: Kernel, const ANY: bool>(kernel: K, query: &Query<'_>, nearest: &mut Nearest) {
     if query.tree.stack() <= SMALL_STACK {
-        walk_with::<K, ANY>(kernel, query, nearest, &mut [Entry::default(); SMALL_STACK]);
+        let stack = Stack { entries: &mut [Entry::default(); SMALL_STACK], top: 0 };
+        walk_with::<K, ANY>(kernel, query, nearest, stack);
     } else {
-        walk_with::<K, ANY>(kernel, query, nearest, &mut vec![Entry::default(); query.tree.stack()]);
+        let stack = Stack { entries: &mut vec![Entry::default(); query.tree.stack()], top: 0 };
+        walk_with::<K, ANY>(kernel, query, nearest, stack);
     }
 }
 
@@ -41,75 +38,50 @@ fn walk_with<K: Kernel, const ANY: bool>(
     kernel: K,
     query: &Query<'_>,
     nearest: &mut Nearest,
-    stack: &mut [Entry],
+    mut stack: Stack<'_>,
 ) {
-    let boxes = BoxRay::new(query.ray);
-    let sheared = ShearedRay::new(query.ray);
+    let (boxes, sheared) = (BoxRay::new(query.ray), ShearedRay::new(query.ray));
     let tree = query.tree;
-    let mut top = 0;
-    let mut child = Child::ROOT;
-    loop {
-        // Down to what the ray enters first, leaving the rest on the stack.
-        if let Kind::Node(node) = child.kind() {
-            let node = &tree.nodes[node];
-            let (mut mask, entry) = kernel.boxes(&boxes, node, nearest.t);
-            if mask != 0 {
-                let first = mask.trailing_zeros() as usize;
-                mask &= mask - 1;
-                child = node.children[first];
-                if mask == 0 {
-                    continue;
-                }
-                let mut t = entry[first];
-                let base = top;
-                while mask != 0 {
-                    let i = mask.trailing_zeros() as usize;
-                    mask &= mask - 1;
-                    let mut pushed = Entry { t: entry[i], child: node.children[i] };
-                    if pushed.t < t {
-                        (pushed, t, child) = (Entry { t, child }, pushed.t, pushed.child);
-                    }
-                    prefetch(kernel, tree, pushed.child);
-                    let mut place = top;
-                    while !ANY && place > base && stack[place - 1].t < pushed.t {
-                        stack[place] = stack[place - 1];
-                        place -= 1;
-                    }
-                    stack[place] = pushed;
-                    top += 1;
-                }
-                continue;
+    let mut child = Some(Child::ROOT);
+    while let Some(here) = child {
+        child = match here.kind() {
+            // Down to what the ray enters first, leaving the rest on the stack.
+            Kind::Node(node) => {
+                let node = &tree.nodes[node];
+                let (met, entry) = kernel.boxes(&boxes, node, nearest.t);
+                let prefetch = |child| prefetch(kernel, tree, child);
+                if met == 0 { None } else { Some(stack.enter::<ANY>(node, met, &entry, prefetch)) }
             }
-        } else {
-            match child.kind() {
-                Kind::Blocks(blocks) => {
-                    for block in &tree.blocks[blocks] {
-                        if let Some((inside, mut edges)) = kernel.triangles(&sheared, block) {
-                            block.finish(&sheared, &mut edges, inside, |prim, hit| {
-                                nearest.offer(Some(Hit { t: hit.t, prim: PrimId(prim), uv: hit.uv }));
-                            });
-                        }
-                    }
+            Kind::Blocks(blocks) => {
+                for block in &tree.blocks[blocks] {
+                    offer_triangles(kernel, block, &sheared, query.first_prim, nearest);
                 }
-                Kind::Solid(solid) => nearest.offer((query.hit_solid)(solid)),
-                Kind::Node(_) => {}
+                None
             }
-            if ANY && nearest.hit.is_some() {
-                return;
+            Kind::Boxed(number) => {
+                (query.hit_boxed)(number, nearest);
+                None
             }
+        };
+        if ANY && nearest.hit.is_some() {
+            return;
         }
-        // The nearest of what is left, unless the ray ends before it.
-        loop {
-            if top == 0 {
-                return;
-            }
-            top -= 1;
-            let entry = stack[top];
-            if entry.t <= nearest.t * EXIT_SLACK {
-                child = entry.child;
-                break;
-            }
-        }
+        child = child.or_else(|| stack.pop(nearest.t));
+    }
+}
+
+#[inline(always)]
+fn offer_triangles<K: Kernel>(
+    kernel: K,
+    block: &TriangleBlock,
+    ray: &ShearedRay,
+    first_prim: u32,
+    nearest: &mut Nearest,
+) {
+    if let Some((inside, mut edges)) = kernel.triangles(ray, block) {
+        block.finish(ray, &mut edges, inside, |prim, hit| {
+            nearest.offer(Some(Hit { t: hit.t, prim: PrimId(first_prim + prim), uv: hit.uv }));
+        });
     }
 }
 
@@ -119,6 +91,67 @@ fn prefetch<K: Kernel>(kernel: K, tree: &Wide, child: Child) {
     match child.kind() {
         Kind::Node(node) => kernel.prefetch(tree.nodes.as_ptr().wrapping_add(node)),
         Kind::Blocks(blocks) => kernel.prefetch(tree.blocks.as_ptr().wrapping_add(blocks.start)),
-        Kind::Solid(_) => {}
+        Kind::Boxed(_) => {}
+    }
+}
+
+/// A node or leaf yet to be visited, and where the ray enters its box.
+#[derive(Clone, Copy, Default)]
+struct Entry {
+    t: f32,
+    child: Child,
+}
+
+/// What is yet to be visited.
+struct Stack<'a> {
+    entries: &'a mut [Entry],
+    top: usize,
+}
+
+impl Stack<'_> {
+    /// Pushes the children of `node` that are `met`, all but the one that the ray enters first, which it returns.
+    ///
+    /// The farthest comes first; with `ANY` they come in any order, which is good enough for who wants any hit.
+    #[inline(always)]
+    fn enter<const ANY: bool>(
+        &mut self,
+        node: &Node,
+        met: u32,
+        entry: &Row,
+        prefetch: impl Fn(Child),
+    ) -> Child {
+        let at = |lane: usize| Entry { t: entry[lane], child: node.children[lane] };
+        let mut first = at(met.trailing_zeros() as usize);
+        let mut rest = met & (met - 1);
+        let base = self.top;
+        while rest != 0 {
+            let mut pushed = at(rest.trailing_zeros() as usize);
+            rest &= rest - 1;
+            if pushed.t < first.t {
+                (first, pushed) = (pushed, first);
+            }
+            prefetch(pushed.child);
+            let mut place = self.top;
+            while !ANY && place > base && self.entries[place - 1].t < pushed.t {
+                self.entries[place] = self.entries[place - 1];
+                place -= 1;
+            }
+            self.entries[place] = pushed;
+            self.top += 1;
+        }
+        first.child
+    }
+
+    /// The last that was pushed and that the ray enters before `t_max`.
+    #[inline(always)]
+    fn pop(&mut self, t_max: f32) -> Option<Child> {
+        while self.top > 0 {
+            self.top -= 1;
+            let entry = self.entries[self.top];
+            if entry.t <= t_max * EXIT_SLACK {
+                return Some(entry.child);
+            }
+        }
+        None
     }
 }

@@ -1,17 +1,16 @@
 //! The partition in the shape that rays like: nodes of eight boxes.
 //!
 //! Binary nodes cost a dependent load and a poorly predicted branch each. Eight cells side by side, each with the box
-//! around what it really holds, are tested at once; the cells of a kd partition stay disjoint, so the order of
-//! entry is the order in space.
+//! around what it really holds, are tested at once, and entered in the order in which the ray enters them.
 
-use super::build::{Cell, Partition};
+use super::build::{Cell, Items, partition};
 use super::collapse::Plan;
 use super::kernel::Portable;
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
 use super::walk::{Query, walk};
 use crate::math::{Bounds, Ray, Vec3};
-use crate::render::geometry::{Hit, Nearest};
+use crate::render::geometry::Nearest;
 use crate::render::shape::triangle::{LANES, TriangleBlock};
 use std::ops::Range;
 
@@ -25,7 +24,7 @@ pub type Row = [f32; WIDTH];
 
 /// A child of a node: 3 bits that say what it is, 29 that say where.
 ///
-/// 0 stands for a node, 1 to 6 for so many blocks of triangles, 7 for a solid.
+/// 0 stands for a node, 1 to 6 for so many blocks of triangles, 7 for something else in a box.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Child(u32);
 
@@ -35,17 +34,17 @@ pub enum Kind {
     Node(usize),
     /// A leaf of triangles.
     Blocks(Range<usize>),
-    /// A single solid.
-    Solid(u32),
+    /// Something else, by its number.
+    Boxed(u32),
 }
 
 impl Child {
     /// The node from which every ray starts.
     pub const ROOT: Self = Self(0);
-    const SOLID: usize = 7;
+    const BOXED: usize = 7;
 
     fn new(first: usize, tag: usize) -> Self {
-        assert!(first < 1 << 29 && tag <= Self::SOLID, "fewer than 2²⁹ nodes and blocks");
+        assert!(first < 1 << 29 && tag <= Self::BOXED, "fewer than 2²⁹ nodes and blocks");
         Self((first as u32) << 3 | tag as u32)
     }
 
@@ -55,7 +54,7 @@ impl Child {
         let (first, tag) = ((self.0 >> 3) as usize, (self.0 & 7) as usize);
         match tag {
             0 => Kind::Node(first),
-            Self::SOLID => Kind::Solid(first as u32),
+            Self::BOXED => Kind::Boxed(first as u32),
             _ => Kind::Blocks(first..first + tag),
         }
     }
@@ -83,19 +82,19 @@ pub struct Wide {
 }
 
 impl Wide {
-    /// Collapses a partition over `triangles` (items by index) and `solids` (the items after them).
-    pub fn collapse(partition: &Partition, triangles: &[[Vec3; 3]], solids: &[u32]) -> Self {
+    /// The tree over `triangles` and `boxes` of other things, the number of each of which is in `boxed`.
+    pub fn new(triangles: &[[Vec3; 3]], boxes: &[Bounds], boxed: &[u32]) -> Self {
+        let partition = partition(&Items { triangles, boxes });
         let mut wide = Self {
-            nodes: Vec::new(),
+            nodes: vec![Node::EMPTY],
             blocks: Vec::new(),
-            #[cfg(target_arch = "x86_64")]
-            avx2: Avx2::detect(),
             bounds: partition.bounds,
             stack: 0,
+            #[cfg(target_arch = "x86_64")]
+            avx2: Avx2::detect(),
         };
         let plan = Plan::new(&partition.root, triangles.len());
-        wide.nodes.push(Node::EMPTY);
-        let depth = wide.fill(0, &plan, triangles, solids);
+        let depth = wide.fill(0, &plan, triangles, boxed);
         wide.stack = depth * (WIDTH - 1) + 1;
         wide
     }
@@ -113,7 +112,7 @@ impl Wide {
     /// Fills a node for a cell and appends all below it; returns how many nodes the longest way down passes.
     ///
     /// The leaves of a node lie side by side, and so do the nodes: who needs one soon needs another.
-    fn fill(&mut self, index: usize, plan: &Plan, triangles: &[[Vec3; 3]], solids: &[u32]) -> usize {
+    fn fill(&mut self, index: usize, plan: &Plan, triangles: &[[Vec3; 3]], boxed: &[u32]) -> usize {
         let parts = plan.children();
         let mut lane = 0;
         let first_inner = self.nodes.len();
@@ -126,7 +125,7 @@ impl Wide {
                 (Cell::Inner { .. }, inner) => {
                     inner.next().map(|node| Child::new(node, 0)).into_iter().collect()
                 }
-                (Cell::Leaf { items, .. }, _) => self.leaf(items, triangles, solids),
+                (Cell::Leaf { items, .. }, _) => self.leaf(items, triangles, boxed),
             };
             for child in children {
                 self.nodes[index].set(lane, child, part.cell.bounds());
@@ -134,12 +133,12 @@ impl Wide {
             }
         }
         let below = parts.iter().filter(is_inner).zip(first_inner..);
-        1 + below.map(|(part, node)| self.fill(node, part, triangles, solids)).max().unwrap_or(0)
+        1 + below.map(|(part, node)| self.fill(node, part, triangles, boxed)).max().unwrap_or(0)
     }
 
-    /// Appends the contents of a leaf: a child for its triangles, one for each of its solids.
-    fn leaf(&mut self, items: &[u32], triangles: &[[Vec3; 3]], solids: &[u32]) -> Vec<Child> {
-        let (meshed, solid) =
+    /// Appends the contents of a leaf: a child for its triangles, one for each of its boxes.
+    fn leaf(&mut self, items: &[u32], triangles: &[[Vec3; 3]], boxed: &[u32]) -> Vec<Child> {
+        let (meshed, others) =
             items.split_at(items.partition_point(|&item| (item as usize) < triangles.len()));
         let first = self.blocks.len();
         for four in meshed.chunks(LANES) {
@@ -148,8 +147,8 @@ impl Wide {
         }
         let blocks = self.blocks.len() - first;
         let meshed = (blocks > 0).then(|| Child::new(first, blocks));
-        let solid = solid.iter().map(|&item| solids[item as usize - triangles.len()] as usize);
-        meshed.into_iter().chain(solid.map(|solid| Child::new(solid, Child::SOLID))).collect()
+        let others = others.iter().map(|&item| boxed[item as usize - triangles.len()] as usize);
+        meshed.into_iter().chain(others.map(|number| Child::new(number, Child::BOXED))).collect()
     }
 
     /// Makes the tree use the code for any processor.
@@ -166,14 +165,17 @@ impl Wide {
     }
 
     /// Offers to `nearest` what can come before it; with `ANY`, stops at the first that does.
+    ///
+    /// The primitives of triangles count from `first_prim`; `hit_boxed` does the same for what is in a box, by its number.
     #[inline]
     pub fn trace<const ANY: bool>(
         &self,
         ray: &Ray,
+        first_prim: u32,
         nearest: &mut Nearest,
-        hit_solid: impl Fn(u32) -> Option<Hit>,
+        hit_boxed: impl Fn(u32, &mut Nearest),
     ) {
-        let query = Query { tree: self, ray, hit_solid: &hit_solid };
+        let query = Query { tree: self, ray, first_prim, hit_boxed: &hit_boxed };
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = self.avx2 {
             return avx2.walk::<ANY>(&query, nearest);

@@ -36,9 +36,6 @@ pub(super) fn sample(eta: f64, tint: Rgb, wo: Vec3, u: f32, transport: Transport
     }
     let eta = eta as f32;
     let wi = Vec3::new(-wo.x / eta, -wo.y / eta, -cos_t as f32);
-    let scale = match transport {
-        Transport::Radiance => 1.0 / (eta * eta),
-        Transport::Importance => 1.0,
-    };
-    LobeSample { wi, weight: tint * scale, pdf: 1.0, specular: true, through: true, eta }
+    let weight = tint * transport.refracted(eta);
+    LobeSample { wi, weight, pdf: 1.0, specular: true, through: true, enters: true, eta }
 }

@@ -1,6 +1,11 @@
 //! One way of scattering, in the local frame: the normal is +z, and the viewer is above the horizon.
 
-use super::{Transport, conductor, dielectric, mirror, phong};
+use super::conductor::Conductor;
+use super::fresnel::Reflectance;
+use super::pane::Pane;
+use super::rough_dielectric::RoughDielectric;
+use super::substrate::Substrate;
+use super::{Side, Transport, dielectric, mirror, phong};
 use crate::math::{Rgb, Vec2, Vec3, warp};
 use std::f32::consts::FRAC_1_PI;
 
@@ -19,22 +24,10 @@ pub enum Lobe {
         /// The power, at least 0.
         exponent: f32,
     },
-    /// Metal with microfacets.
-    Conductor {
-        /// Reflectance at normal incidence.
-        f0: Rgb,
-        /// Reflectance at grazing incidence.
-        f90: Rgb,
-        /// The width of the distribution of slopes.
-        alpha: f32,
-    },
+    /// A rough surface that reflects.
+    Conductor(Conductor),
     /// A smooth metal or mirror.
-    Mirror {
-        /// Reflectance at normal incidence.
-        f0: Rgb,
-        /// Reflectance at grazing incidence.
-        f90: Rgb,
-    },
+    Mirror(Reflectance),
     /// A smooth dielectric: reflects a part and lets the other through.
     Dielectric {
         /// Its share among the lobes.
@@ -44,6 +37,12 @@ pub enum Lobe {
         /// The factor of light that passes.
         tint: Rgb,
     },
+    /// A ground dielectric.
+    RoughDielectric(RoughDielectric),
+    /// A pane, which light passes straight.
+    Pane(Pane),
+    /// The matt body under a coat.
+    Substrate(Substrate),
 }
 
 /// A direction drawn from one lobe.
@@ -58,6 +57,8 @@ pub(super) struct LobeSample {
     pub specular: bool,
     /// Whether light went through the surface.
     pub through: bool,
+    /// Whether it is in another medium then.
+    pub enters: bool,
     /// Relative refractive index behind the surface if it did; 1 otherwise.
     pub eta: f32,
 }
@@ -65,12 +66,12 @@ pub(super) struct LobeSample {
 impl LobeSample {
     /// A reflection into one of many directions.
     pub fn smooth(wi: Vec3, weight: Rgb, pdf: f32) -> Self {
-        Self { wi, weight, pdf, specular: false, through: false, eta: 1.0 }
+        Self { wi, weight, pdf, specular: false, through: false, enters: false, eta: 1.0 }
     }
 
     /// A reflection into the only direction.
     pub fn mirrored(wi: Vec3, weight: Rgb) -> Self {
-        Self { wi, weight, pdf: 1.0, specular: true, through: false, eta: 1.0 }
+        Self { wi, weight, pdf: 1.0, specular: true, through: false, enters: false, eta: 1.0 }
     }
 }
 
@@ -79,7 +80,11 @@ impl Lobe {
     pub fn transmits(&self) -> bool {
         !matches!(
             self,
-            Self::Lambert { .. } | Self::Phong { .. } | Self::Conductor { .. } | Self::Mirror { .. }
+            Self::Lambert { .. }
+                | Self::Phong { .. }
+                | Self::Conductor(_)
+                | Self::Mirror(_)
+                | Self::Substrate(_)
         )
     }
 
@@ -88,15 +93,37 @@ impl Lobe {
 
     /// Whether it scatters into one direction (or two) only.
     pub fn is_specular(&self) -> bool {
-        matches!(self, Self::Mirror { .. } | Self::Dielectric { .. })
+        match self {
+            Self::Mirror(_) | Self::Dielectric { .. } => true,
+            Self::Pane(pane) => pane.is_specular(),
+            _ => false,
+        }
+    }
+
+    /// Whether it looks at a number of its own to choose between ways.
+    pub(super) fn has_choice(&self) -> bool {
+        matches!(self, Self::Dielectric { .. } | Self::RoughDielectric(_) | Self::Pane(_))
+    }
+
+    /// Whether light may pass through into more than one direction.
+    pub fn spreads_through(&self) -> bool {
+        match self {
+            Self::RoughDielectric(_) => true,
+            Self::Pane(pane) => !pane.is_specular(),
+            _ => false,
+        }
     }
 
     /// Whether it scatters nothing.
     pub fn is_black(&self) -> bool {
         match self {
             Self::Lambert { albedo } | Self::Phong { albedo, .. } => albedo.is_black(),
-            Self::Conductor { f0, f90, .. } | Self::Mirror { f0, f90 } => f0.is_black() && f90.is_black(),
+            Self::Conductor(rough) => rough.reflectance.is_black(),
+            Self::Mirror(reflectance) => reflectance.is_black(),
             Self::Dielectric { share, .. } => *share == 0.0,
+            Self::RoughDielectric(rough) => rough.share == 0.0,
+            Self::Pane(pane) => pane.share == 0.0,
+            Self::Substrate(body) => body.is_black(),
         }
     }
 
@@ -111,9 +138,7 @@ impl Lobe {
             (Self::Lambert { albedo: a }, Self::Lambert { albedo: b }) => {
                 Some(Self::Lambert { albedo: a + b })
             }
-            (Self::Mirror { f0, f90 }, Self::Mirror { f0: g0, f90: g90 }) => {
-                Some(Self::Mirror { f0: f0 + g0, f90: f90 + g90 })
-            }
+            (Self::Mirror(a), Self::Mirror(b)) => Some(Self::Mirror(a + b)),
             _ => None,
         }
     }
@@ -122,33 +147,39 @@ impl Lobe {
     pub(super) fn albedo(&self, wo: Vec3) -> f32 {
         match *self {
             Self::Lambert { albedo } | Self::Phong { albedo, .. } => albedo.mean(),
-            Self::Conductor { f0, f90, .. } | Self::Mirror { f0, f90 } => {
-                mirror::schlick(f0, f90, wo.z).mean()
-            }
+            Self::Conductor(rough) => rough.albedo(wo.z),
+            Self::Mirror(reflectance) => reflectance.at(wo.z).mean(),
             Self::Dielectric { share, .. } => share,
+            Self::RoughDielectric(rough) => rough.share,
+            Self::Pane(pane) => pane.share,
+            Self::Substrate(body) => body.albedo(wo.z),
         }
     }
 
-    /// Value times `cos θi`, and density, for two directions above the horizon.
-    pub(super) fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
+    /// Value times `|cos θi|`, and density, for two directions, of which `wo` is above the horizon.
+    pub(super) fn eval_pdf(&self, wo: Vec3, wi: Vec3, side: Side) -> (Rgb, f32) {
+        if wi.z < 0.0 && !self.spreads_through() {
+            return (Rgb::BLACK, 0.0);
+        }
         match *self {
             Self::Lambert { albedo } => {
                 let pdf = warp::square_to_cosine_hemisphere_pdf(wi);
                 (albedo * (wi.z * FRAC_1_PI), pdf)
             }
             Self::Phong { albedo, exponent } => phong::eval_pdf(albedo, exponent, wo, wi),
-            Self::Conductor { f0, f90, alpha } => conductor::eval_pdf(f0, f90, alpha, wo, wi),
-            Self::Mirror { .. } | Self::Dielectric { .. } => (Rgb::BLACK, 0.0),
+            Self::Conductor(rough) => rough.eval_pdf(wo, wi),
+            Self::RoughDielectric(rough) => rough.eval_pdf(wo, wi, side),
+            Self::Pane(pane) => pane.eval_pdf(wo, wi),
+            Self::Substrate(body) => body.eval_pdf(wo, wi),
+            Self::Mirror(_) | Self::Dielectric { .. } => (Rgb::BLACK, 0.0),
         }
     }
 
     /// Draws a direction by `u`; `u_choice` chooses between reflection and refraction.
-    ///
-    /// `outside` says whether the viewer is on the side of the geometric normal.
     pub(super) fn sample(
         &self,
         wo: Vec3,
-        outside: bool,
+        side: Side,
         u: Vec2,
         u_choice: f32,
         transport: Transport,
@@ -160,13 +191,15 @@ impl Lobe {
                 (pdf > 0.0).then(|| LobeSample::smooth(wi, albedo, pdf))
             }
             Self::Phong { albedo, exponent } => phong::sample(albedo, exponent, wo, u),
-            Self::Conductor { f0, f90, alpha } => conductor::sample(f0, f90, alpha, wo, u),
-            Self::Mirror { f0, f90 } => Some(mirror::sample(f0, f90, wo)),
+            Self::Conductor(rough) => rough.sample(wo, u),
+            Self::Mirror(reflectance) => Some(mirror::sample(&reflectance, wo)),
             Self::Dielectric { share, ior, tint } => {
-                let eta = if outside { f64::from(ior) } else { 1.0 / f64::from(ior) };
-                let drawn = dielectric::sample(eta, tint, wo, u_choice, transport);
+                let drawn = dielectric::sample(side.eta(ior), tint, wo, u_choice, transport);
                 Some(LobeSample { weight: drawn.weight * share, ..drawn })
             }
+            Self::RoughDielectric(rough) => rough.sample(wo, side, u, u_choice, transport),
+            Self::Pane(pane) => pane.sample(wo, u, u_choice),
+            Self::Substrate(body) => body.sample(wo, u),
         }
     }
 }

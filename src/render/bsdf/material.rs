@@ -1,21 +1,12 @@
 //! Materials: how the surfaces of a world scatter and emit, before a point on them is known.
 
-use super::conductor::MIRROR_ALPHA;
-use super::{Bsdf, Lobe};
+use super::conductor::{Conductor, MIRROR_ALPHA};
+use super::{Bsdf, Coat, Lobe, Pane, Reflectance, RoughDielectric, Substrate};
 use crate::math::Rgb;
 use crate::render::geometry::SurfacePoint;
 pub use crate::render::shape::MaterialId;
-use crate::render::texture::Texture;
-pub use crate::render::texture::TextureId;
-
-/// A colour that is the same everywhere, or looked up at each point. Scalars take the mean of the channels.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Input {
-    /// The same everywhere.
-    Constant(Rgb),
-    /// Looked up.
-    Texture(TextureId),
-}
+pub use crate::render::texture::{Input, TextureId};
+use crate::render::texture::{Texture, Textures};
 
 /// What a surface is made of. All but glass look the same from both sides.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -41,20 +32,37 @@ pub enum Material {
     },
     /// A metal with microfacets of the GGX distribution.
     Metal {
-        /// The reflectance at normal incidence, in [0, 1]; grazing goes to 1 (Schlick 1994).
+        /// The reflectance at normal incidence, in [0, 1]; grazing goes to 1.
         f0: Input,
+        /// The reflectance at 82°, as a share in [0, 1] of what Schlick's formula would make it.
+        edge: Input,
         /// Perceptual roughness in [0, 1]; α is its square, and below α = 10⁻³ the metal is a mirror.
         roughness: Input,
     },
-    /// A smooth dielectric around a clear or coloured inside.
-    Glass {
-        /// The refractive index of the side against the normal; at least 1.
+    /// A dielectric around a clear or coloured inside, or a pane of it.
+    Glass(Glass),
+    /// A matt body under a clear coat.
+    Plastic {
+        /// The albedo of the body, in [0, 1].
+        color: Input,
+        /// The refractive index of the coat; at least 1.
         ior: f32,
-        /// The factor at every crossing of the surface, in [0, 1].
-        tint: Rgb,
-        /// The absorption coefficient of the inside, per metre.
-        absorption: Rgb,
+        /// Perceptual roughness of the coat, in [0, 1].
+        roughness: Input,
     },
+    /// A clear coat over something else.
+    Layer {
+        /// What lies under it.
+        base: MaterialId,
+        /// Its refractive index; at least 1.
+        ior: f32,
+        /// Its perceptual roughness, in [0, 1].
+        roughness: Input,
+        /// How much of the surface it covers, in [0, 1].
+        cover: Input,
+    },
+    /// The metallic-roughness model of glTF 2.0, with transmission and a clear coat.
+    Principled(Principled),
     /// Emits, and scatters nothing.
     Emissive {
         /// The emitted radiance, in W·m⁻²·sr⁻¹.
@@ -89,7 +97,120 @@ pub enum Material {
         /// The share of `b`, in [0, 1].
         amount: Input,
     },
+    /// A material with holes. Outermost.
+    Mask {
+        /// Where there is no hole.
+        base: MaterialId,
+        /// The share of the surface that is there, in [0, 1].
+        opacity: Input,
+        /// Everything from this opacity on is there and all below is a hole, unless it is 0.
+        cutoff: f32,
+    },
+    /// One material for each side. Outermost but for a mask.
+    TwoSided {
+        /// On the side of the normal.
+        front: MaterialId,
+        /// On the other.
+        back: MaterialId,
+    },
+    /// A material with a finer shape than its surface. Outermost but for a mask and sides.
+    Relief {
+        /// What it is made of.
+        base: MaterialId,
+        /// How it bends the normal.
+        relief: Relief,
+    },
 }
+
+/// A clear solid, or a pane.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Glass {
+    /// The refractive index of the side against the normal; at least 1.
+    pub ior: f32,
+    /// The factor at every crossing of the surface, in [0, 1].
+    pub tint: Rgb,
+    /// The absorption coefficient of the inside, per metre.
+    pub absorption: Rgb,
+    /// Perceptual roughness, in [0, 1]; below α = 10⁻³ the glass is smooth.
+    pub roughness: Input,
+    /// Whether it is a pane, which has no inside.
+    pub thin: bool,
+    /// Of solids that overlap, the one of highest priority fills the space; of equals, that entered last.
+    pub priority: i32,
+    /// How much more it refracts blue (the F line) than red (the C line): the difference of the indices.
+    pub spread: f32,
+}
+
+impl Glass {
+    /// Smooth, clear and solid.
+    pub const fn of_ior(ior: f32) -> Self {
+        Self {
+            ior,
+            tint: Rgb::WHITE,
+            absorption: Rgb::BLACK,
+            roughness: Input::Constant(Rgb::BLACK),
+            thin: false,
+            priority: 0,
+            spread: 0.0,
+        }
+    }
+}
+
+/// The inputs of the metallic-roughness model.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Principled {
+    /// Albedo of what is matt, reflectance of what is metal, tint of what is clear; in [0, 1].
+    pub color: Input,
+    /// The share that is metal, in [0, 1].
+    pub metallic: Input,
+    /// Perceptual roughness, in [0, 1].
+    pub roughness: Input,
+    /// The share of the rest that is clear, in [0, 1].
+    pub transmission: Input,
+    /// The refractive index of what is not metal; at least 1.
+    pub ior: f32,
+    /// How much of the surface a coat of index 1.5 covers, in [0, 1].
+    pub clearcoat: Input,
+    /// The coat's perceptual roughness, in [0, 1].
+    pub clearcoat_roughness: Input,
+    /// The emitted radiance, on the side of the normal, in W·m⁻²·sr⁻¹.
+    pub emission: Rgb,
+}
+
+/// How a surface's normal is bent.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Relief {
+    /// By a picture of normals: red along u, green along v, blue outwards, each from −1 at 0 to 1 at 1.
+    NormalMap {
+        /// The picture.
+        map: TextureId,
+        /// A factor on how far normals lean.
+        strength: f32,
+    },
+    /// By a picture of heights.
+    Bump {
+        /// The picture; its mean over the channels counts.
+        height: TextureId,
+        /// How much higher 1 is than 0, in metres.
+        depth: f32,
+    },
+}
+
+/// What fills a solid.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Interior {
+    /// The refractive index.
+    pub ior: f32,
+    /// The absorption coefficient, per metre.
+    pub absorption: Rgb,
+    /// Which of several that overlap counts: the highest.
+    pub priority: i32,
+    /// The difference of the indices for blue and red.
+    pub spread: f32,
+}
+
+/// The refractive index of a clear coat over a principled material (KHR_materials_clearcoat).
+const CLEARCOAT_IOR: f32 = 1.5;
 
 /// What a surface emits: the same radiance at every point and in every direction of its side.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -124,9 +245,15 @@ impl Emission {
 /// All materials of a world with the textures they look up.
 pub struct Materials {
     materials: Vec<Material>,
-    textures: Vec<Texture>,
+    textures: Textures,
     /// By material: found once, so that hitting a surface that does not shine costs one look.
     emissions: Vec<Emission>,
+    /// By material: what fills it, if it is clear.
+    interiors: Vec<Option<Interior>>,
+    /// Whether any has holes.
+    has_holes: bool,
+    /// Whether any bends each wavelength in its own way.
+    disperses: bool,
 }
 
 impl Materials {
@@ -135,9 +262,14 @@ impl Materials {
     /// # Panics
     /// When a mix holds more lobes than a [`Bsdf`] has room for.
     pub fn new(materials: Vec<Material>, textures: Vec<Texture>) -> Self {
-        let mut this = Self { materials, textures, emissions: Vec::new() };
+        let has_holes = materials.iter().any(|material| matches!(material, Material::Mask { .. }));
+        let (emissions, interiors) = (Vec::new(), Vec::new());
+        let textures = Textures::new(textures);
+        let mut this = Self { materials, textures, emissions, interiors, has_holes, disperses: false };
         let ids = (0..this.materials.len() as u32).map(MaterialId);
         this.emissions = ids.clone().map(|id| this.find_emission(id)).collect();
+        this.interiors = ids.clone().map(|id| this.find_interior(id)).collect();
+        this.disperses = this.interiors.iter().flatten().any(|interior| interior.spread > 0.0);
         let most = ids.map(|id| lobe_count(&this.materials, id)).max().unwrap_or(0);
         assert!(most <= Bsdf::MAX_LOBES, "a mix of materials has at most {} lobes", Bsdf::MAX_LOBES);
         this
@@ -155,25 +287,63 @@ impl Materials {
 
     /// How the surface scatters at a point: its textures looked up.
     pub fn bsdf(&self, surface: &SurfacePoint) -> Bsdf {
+        self.bsdf_of(surface.material, surface)
+    }
+
+    /// The same for one of the materials that its own comes down to.
+    pub fn bsdf_of(&self, id: MaterialId, surface: &SurfacePoint) -> Bsdf {
         let mut bsdf = Bsdf::new(surface);
-        self.add_lobes(surface.material, 1.0, surface, &mut bsdf);
+        self.add_lobes(id, 1.0, surface, &mut bsdf);
         bsdf
     }
 
-    /// The absorption coefficient inside a material, per metre; `None` for what has no inside.
-    pub fn absorption(&self, id: MaterialId) -> Option<Rgb> {
+    /// The material on one side of a surface, and how it bends the normal.
+    #[inline]
+    pub fn face(&self, id: MaterialId, from_outside: bool) -> (MaterialId, Option<Relief>) {
         match *self.get(id) {
-            Material::Glass { absorption, .. } => Some(absorption),
-            _ => None,
+            Material::Mask { base, .. } => self.face(base, from_outside),
+            Material::TwoSided { front, back } => {
+                self.face(if from_outside { front } else { back }, from_outside)
+            }
+            Material::Relief { base, relief } => (base, Some(relief)),
+            _ => (id, None),
         }
     }
 
-    /// The refractive index inside a material; `None` for what has no inside.
-    pub fn ior(&self, id: MaterialId) -> Option<f32> {
-        match *self.get(id) {
-            Material::Glass { ior, .. } | Material::Whitted { ior, .. } => Some(ior),
-            _ => None,
+    /// What fills a solid of this material; `None` for what has no inside.
+    pub fn interior(&self, id: MaterialId) -> Option<&Interior> {
+        self.interiors[id.0 as usize].as_ref()
+    }
+
+    /// Whether any material has holes.
+    pub fn has_holes(&self) -> bool {
+        self.has_holes
+    }
+
+    /// Whether any material bends each wavelength in its own way.
+    pub fn disperses(&self) -> bool {
+        self.disperses
+    }
+
+    /// Whether a material may have holes.
+    pub fn is_mask(&self, id: MaterialId) -> bool {
+        matches!(self.get(id), Material::Mask { .. })
+    }
+
+    /// The share of the surface that is there, at a point.
+    pub fn opacity(&self, surface: &SurfacePoint) -> f32 {
+        match *self.get(surface.material) {
+            Material::Mask { opacity, cutoff, .. } => match self.scalar(opacity, surface) {
+                opacity if cutoff > 0.0 => f32::from(u8::from(opacity >= cutoff)),
+                opacity => opacity,
+            },
+            _ => 1.0,
         }
+    }
+
+    /// The textures that materials look up.
+    pub fn textures(&self) -> &Textures {
+        &self.textures
     }
 
     fn add_lobes(&self, id: MaterialId, share: f32, surface: &SurfacePoint, bsdf: &mut Bsdf) {
@@ -189,18 +359,31 @@ impl Materials {
             }
             Material::Mirror { color } => {
                 let color = self.color(color, surface) * share;
-                bsdf.add(Lobe::Mirror { f0: color, f90: color });
+                bsdf.add(Lobe::Mirror(Reflectance::flat(color)));
             }
-            Material::Metal { f0, roughness } => {
-                let alpha = self.scalar(roughness, surface).powi(2).min(1.0);
-                let (f0, f90) = (self.color(f0, surface) * share, Rgb::gray(share));
-                bsdf.add(if alpha < MIRROR_ALPHA {
-                    Lobe::Mirror { f0, f90 }
-                } else {
-                    Lobe::Conductor { f0, f90, alpha }
-                });
+            Material::Metal { f0, edge, roughness } => {
+                let alpha = self.alpha(roughness, surface);
+                let reflectance = Reflectance::metal(self.color(f0, surface), self.color(edge, surface));
+                bsdf.add(metal(reflectance, alpha, share));
             }
-            Material::Glass { ior, tint, .. } => bsdf.add(Lobe::Dielectric { share, ior, tint }),
+            Material::Glass(glass) => {
+                let alpha = self.alpha(glass.roughness, surface);
+                bsdf.add(clear(&glass, alpha, share));
+            }
+            Material::Plastic { color, ior, roughness } => {
+                let (color, alpha) = (self.color(color, surface), self.alpha(roughness, surface));
+                add_coated(bsdf, color, ior, alpha, share);
+            }
+            Material::Layer { base, ior, roughness, cover } => {
+                let (alpha, cover) = (self.alpha(roughness, surface), self.scalar(cover, surface));
+                let first = bsdf.lobes().len();
+                self.add_lobes(base, share, surface, bsdf);
+                add_coat(bsdf, first, ior, alpha, cover.clamp(0.0, 1.0), share);
+            }
+            Material::Principled(ref principled) => self.add_principled(principled, share, surface, bsdf),
+            Material::Mask { base, .. }
+            | Material::TwoSided { front: base, .. }
+            | Material::Relief { base, .. } => self.add_lobes(base, share, surface, bsdf),
             Material::Emissive { .. } => {}
             Material::Mix { a, b, amount } => {
                 let amount = self.scalar(amount, surface).clamp(0.0, 1.0);
@@ -211,6 +394,32 @@ impl Materials {
                     self.add_lobes(b, share * amount, surface, bsdf);
                 }
             }
+        }
+    }
+
+    /// glTF 2.0, appendix B, with KHR_materials_transmission, _ior and _clearcoat: metal and dielectric by shares, the
+    /// dielectric matt or clear by shares, under a coat.
+    fn add_principled(&self, of: &Principled, share: f32, surface: &SurfacePoint, bsdf: &mut Bsdf) {
+        let unit = |input| self.scalar(input, surface).clamp(0.0, 1.0);
+        let (color, alpha) = (self.color(of.color, surface), self.alpha(of.roughness, surface));
+        let (metallic, transmission, clearcoat) =
+            (unit(of.metallic), unit(of.transmission), unit(of.clearcoat));
+        let first = bsdf.lobes().len();
+        if metallic > 0.0 {
+            bsdf.add(metal(Reflectance::metal(color, Rgb::WHITE), alpha, share * metallic));
+        }
+        let (matt, through) = (1.0 - transmission, transmission);
+        if metallic < 1.0 && matt > 0.0 {
+            add_coated(bsdf, color, of.ior, alpha, share * (1.0 - metallic) * matt);
+        }
+        if metallic < 1.0 && through > 0.0 {
+            // Light that goes into a body and out again takes on the colour once.
+            let glass = Glass { tint: color.map(f32::sqrt), ..Glass::of_ior(of.ior) };
+            bsdf.add(clear(&glass, alpha, share * (1.0 - metallic) * through));
+        }
+        if clearcoat > 0.0 {
+            let alpha = self.alpha(of.clearcoat_roughness, surface);
+            add_coat(bsdf, first, CLEARCOAT_IOR, alpha, clearcoat, share);
         }
     }
 
@@ -234,6 +443,10 @@ impl Materials {
                 self.add_parts(*a, share * (1.0 - amount), surface, parts);
                 self.add_parts(*b, share * amount, surface, parts);
             }
+            Material::Layer { base, .. }
+            | Material::Mask { base, .. }
+            | Material::TwoSided { front: base, .. }
+            | Material::Relief { base, .. } => self.add_parts(*base, share, surface, parts),
             part => parts.push((share, part)),
         }
     }
@@ -245,53 +458,143 @@ impl Materials {
                 Emission { front: radiance, back: if two_sided { radiance } else { Rgb::BLACK } }
             }
             Material::Mix { a, b, amount } => {
-                let amount = match amount {
-                    Input::Constant(color) => color,
-                    Input::Texture(id) => self.textures[id.0 as usize].mean(),
-                };
+                let amount = self.textures.mean(amount);
                 let (a, b) = (self.find_emission(a), self.find_emission(b));
                 let amount = amount.mean().clamp(0.0, 1.0);
                 Emission { front: a.front.lerp(b.front, amount), back: a.back.lerp(b.back, amount) }
             }
+            Material::Principled(Principled { emission, .. }) => {
+                Emission { front: emission, back: Rgb::BLACK }
+            }
+            Material::TwoSided { front, back } => {
+                Emission { front: self.find_emission(front).front, back: self.find_emission(back).front }
+            }
+            Material::Relief { base, .. } => self.find_emission(base),
             _ => Emission::NONE,
         }
     }
 
-    /// An input at a point.
+    /// What fills a material. Of what is only partly clear, nothing is known.
+    fn find_interior(&self, id: MaterialId) -> Option<Interior> {
+        match *self.get(id) {
+            Material::Glass(Glass { ior, absorption, priority, spread, thin: false, .. }) => {
+                Some(Interior { ior, absorption, priority, spread })
+            }
+            Material::Whitted { ior, .. } => {
+                Some(Interior { ior, absorption: Rgb::BLACK, priority: 0, spread: 0.0 })
+            }
+            Material::Principled(Principled { ior, transmission, .. })
+                if transmission != Input::Constant(Rgb::BLACK) =>
+            {
+                Some(Interior { ior, absorption: Rgb::BLACK, priority: 0, spread: 0.0 })
+            }
+            Material::Relief { base, .. } | Material::Mask { base, .. } => self.find_interior(base),
+            _ => None,
+        }
+    }
+
+    /// An input at a point, held to [0, 1] where it is looked up.
     pub fn color(&self, input: Input, surface: &SurfacePoint) -> Rgb {
         match input {
             Input::Constant(color) => color,
-            Input::Texture(id) => self.textures[id.0 as usize].eval(surface),
+            // Reflectances beyond 1 were reported; they must not light the scene.
+            Input::Texture(id) => self.textures.eval(id, surface).map(|x| x.clamp(0.0, 1.0)),
         }
     }
 
     fn scalar(&self, input: Input, surface: &SurfacePoint) -> f32 {
         self.color(input, surface).mean()
     }
+
+    /// The width of slopes from a perceptual roughness.
+    fn alpha(&self, roughness: Input, surface: &SurfacePoint) -> f32 {
+        let roughness = self.scalar(roughness, surface).clamp(0.0, 1.0);
+        roughness * roughness
+    }
+}
+
+/// Metal of any roughness.
+fn metal(reflectance: Reflectance, alpha: f32, share: f32) -> Lobe {
+    if alpha < MIRROR_ALPHA {
+        Lobe::Mirror(reflectance * share)
+    } else {
+        Lobe::Conductor(Conductor::metal(reflectance, alpha, share))
+    }
+}
+
+/// Glass of any roughness and thickness.
+fn clear(glass: &Glass, alpha: f32, share: f32) -> Lobe {
+    let &Glass { ior, tint, thin, .. } = glass;
+    if thin {
+        Lobe::Pane(Pane { share, ior, tint, alpha })
+    } else if alpha < MIRROR_ALPHA || (ior - 1.0).abs() < RoughDielectric::LEAST_BEND {
+        Lobe::Dielectric { share, ior, tint }
+    } else {
+        Lobe::RoughDielectric(RoughDielectric { share, ior, tint, alpha })
+    }
+}
+
+/// The outside of something clear.
+fn shine(ior: f32, alpha: f32, share: f32) -> Lobe {
+    let reflectance = Reflectance::of_ior(ior);
+    if alpha < MIRROR_ALPHA {
+        Lobe::Mirror(reflectance * share)
+    } else {
+        Lobe::Conductor(Conductor::coat(reflectance, alpha, share))
+    }
+}
+
+/// A matt body under its own coat.
+fn add_coated(bsdf: &mut Bsdf, color: Rgb, ior: f32, alpha: f32, share: f32) {
+    bsdf.add(Lobe::Substrate(Substrate::new(color, ior, Coat::new(ior, alpha, 1.0), share)));
+    bsdf.add(shine(ior, alpha, share));
+}
+
+/// A coat over the lobes from `first` on.
+fn add_coat(bsdf: &mut Bsdf, first: usize, ior: f32, alpha: f32, cover: f32, share: f32) {
+    if cover > 0.0 {
+        bsdf.cover(Coat::new(ior, alpha, cover), first);
+        bsdf.add(shine(ior, alpha, share * cover));
+    }
 }
 
 /// The most lobes that a material can have at a point: each glossy part and each glass is one, all diffuse parts
-/// together are one, and all mirrors are. A world takes no material with more than [`Bsdf::MAX_LOBES`].
+/// together are one, and all mirrors are, apart from those under a coat. A world takes no material with more than
+/// [`Bsdf::MAX_LOBES`], and none with two coats.
 pub fn lobe_count(materials: &[Material], id: MaterialId) -> usize {
     let mut parts = Vec::new();
-    collect_parts(materials, id, &mut parts);
-    let any = |wanted: fn(&Material) -> bool| usize::from(parts.iter().any(wanted));
-    let glossy = |part: &&Material| {
-        matches!(part, Material::Phong { .. } | Material::Metal { .. } | Material::Glass { .. })
+    collect_parts(materials, id, false, &mut parts);
+    let any = |wanted: fn(&Material) -> bool, under| {
+        usize::from(parts.iter().any(|(part, covered)| *covered == under && wanted(part)))
     };
     let matt = |part: &Material| {
         matches!(part, Material::Diffuse { .. } | Material::Phong { .. } | Material::Whitted { .. })
     };
-    any(matt) + any(|part| matches!(part, Material::Mirror { .. })) + parts.iter().filter(glossy).count()
+    let mirror = |part: &Material| matches!(part, Material::Mirror { .. });
+    let own = |(part, _): &(Material, bool)| match part {
+        Material::Phong { .. } | Material::Metal { .. } | Material::Glass(_) | Material::Layer { .. } => 1,
+        Material::Plastic { .. } => 2,
+        Material::Principled(_) => 5,
+        _ => 0,
+    };
+    let alike: usize = [false, true].into_iter().map(|under| any(matt, under) + any(mirror, under)).sum();
+    alike + parts.iter().map(own).sum::<usize>()
 }
 
-/// The materials that a mix comes down to.
-fn collect_parts(materials: &[Material], id: MaterialId, parts: &mut Vec<Material>) {
+/// The materials that a mix or layer comes down to, each with whether it lies under a coat; layers count as themselves.
+fn collect_parts(materials: &[Material], id: MaterialId, covered: bool, parts: &mut Vec<(Material, bool)>) {
     match materials[id.0 as usize] {
         Material::Mix { a, b, .. } => {
-            collect_parts(materials, a, parts);
-            collect_parts(materials, b, parts);
+            collect_parts(materials, a, covered, parts);
+            collect_parts(materials, b, covered, parts);
         }
-        part => parts.push(part),
+        layer @ Material::Layer { base, .. } => {
+            collect_parts(materials, base, true, parts);
+            parts.push((layer, covered));
+        }
+        Material::Mask { base, .. }
+        | Material::TwoSided { front: base, .. }
+        | Material::Relief { base, .. } => collect_parts(materials, base, covered, parts),
+        part => parts.push((part, covered)),
     }
 }

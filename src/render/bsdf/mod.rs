@@ -4,16 +4,33 @@
 //! the trio of every distribution: `eval`, `pdf`, `sample`; the three agree. Lobes that scatter into a single direction
 //! evaluate to zero, and only `sample` finds them.
 
+mod albedo;
 mod conductor;
 mod dielectric;
+mod dispersion;
+mod fresnel;
 mod lobe;
 mod material;
 mod mirror;
+mod pane;
 mod phong;
+mod relief;
+mod rough_dielectric;
+mod substrate;
 
+pub use conductor::Conductor;
 pub use dielectric::fresnel_dielectric;
+pub use dispersion::Wavelength;
+pub use fresnel::Reflectance;
 pub use lobe::Lobe;
-pub use material::{Emission, Input, Material, MaterialId, Materials, TextureId, lobe_count};
+pub use material::{
+    Emission, Glass, Input, Interior, Material, MaterialId, Materials, Principled, Relief, TextureId,
+    lobe_count,
+};
+pub use pane::Pane;
+pub use relief::facing;
+pub use rough_dielectric::RoughDielectric;
+pub use substrate::{Coat, Substrate};
 
 use super::geometry::SurfacePoint;
 use crate::math::{Frame, Rgb, Vec2, Vec3};
@@ -28,6 +45,36 @@ pub enum Transport {
     Importance,
 }
 
+impl Transport {
+    /// The factor of what is refracted into a medium of relative index `eta`, seen from the viewer's side: radiance
+    /// scales by 1/η² (Veach 1997, eq. 5.1), power does not.
+    fn refracted(self, eta: f32) -> f32 {
+        match self {
+            Self::Radiance => 1.0 / (eta * eta),
+            Self::Importance => 1.0,
+        }
+    }
+}
+
+/// The side of a surface that a viewer is on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Side {
+    /// That of the geometric normal.
+    Outside,
+    /// The other.
+    Inside,
+}
+
+impl Side {
+    /// The index beyond the surface over that on this side, where `ior` is that against the normal over that along it.
+    fn eta(self, ior: f32) -> f64 {
+        match self {
+            Self::Outside => f64::from(ior),
+            Self::Inside => 1.0 / f64::from(ior),
+        }
+    }
+}
+
 /// A drawn direction.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct BsdfSample {
@@ -39,7 +86,7 @@ pub struct BsdfSample {
     pub pdf: f32,
     /// Whether the lobe scatters into this direction alone.
     pub specular: bool,
-    /// Whether light went through the surface.
+    /// Whether light went through the surface into what is behind it; through a pane it goes without.
     pub through: bool,
     /// The refractive index behind the surface, relative to the one in front, if the path went through; 1 otherwise.
     pub eta: f32,
@@ -54,6 +101,10 @@ pub struct Bsdf {
     n: Vec3,
     lobes: [Lobe; Self::MAX_LOBES],
     count: usize,
+    /// A clear layer over some of the lobes.
+    coat: Option<Coat>,
+    /// Which: a bit for each lobe.
+    covered: u8,
 }
 
 /// The outgoing direction in the frame that serves it.
@@ -71,7 +122,7 @@ impl Bsdf {
     /// A surface that scatters nothing yet.
     pub fn new(surface: &SurfacePoint) -> Self {
         let frame = Frame { x: surface.tangent, y: surface.ns.cross(surface.tangent), z: surface.ns };
-        Self { frame, n: surface.n, lobes: [Lobe::NONE; Self::MAX_LOBES], count: 0 }
+        Self { frame, n: surface.n, lobes: [Lobe::NONE; Self::MAX_LOBES], count: 0, coat: None, covered: 0 }
     }
 
     /// Adds a lobe, unless it is black; diffuse ones are joined into one, and mirrors are too.
@@ -79,14 +130,47 @@ impl Bsdf {
         if lobe.is_black() {
             return;
         }
-        for present in &mut self.lobes[..self.count] {
-            if let Some(joined) = present.joined(&lobe) {
-                *present = joined;
+        self.add_under(lobe, false);
+    }
+
+    /// Adds a lobe, under the coat or not; of those on the same side of it, alike ones are joined.
+    fn add_under(&mut self, lobe: Lobe, covered: bool) {
+        for i in 0..self.count {
+            if self.is_covered(i) == covered
+                && let Some(joined) = self.lobes[i].joined(&lobe)
+            {
+                self.lobes[i] = joined;
                 return;
             }
         }
         self.lobes[self.count] = lobe;
+        self.covered |= u8::from(covered) << self.count;
         self.count += 1;
+    }
+
+    /// Lays a clear layer over the lobes from `first` on. The layer's own lobe is added after.
+    pub fn cover(&mut self, coat: Coat, first: usize) {
+        self.coat = Some(coat);
+        for i in first..self.count {
+            self.covered |= 1 << i;
+        }
+    }
+
+    fn is_covered(&self, lobe: usize) -> bool {
+        self.covered >> lobe & 1 == 1
+    }
+
+    /// The albedo, if all it does is to scatter equally in all directions about the geometric normal.
+    pub fn matt_albedo(&self) -> Option<Rgb> {
+        match *self.lobes() {
+            [Lobe::Lambert { albedo }] if self.covered == 0 && self.frame.z == self.n => Some(albedo),
+            _ => None,
+        }
+    }
+
+    /// Whether light may pass through into more than one direction.
+    pub fn spreads_through(&self) -> bool {
+        self.lobes().iter().any(Lobe::spreads_through)
     }
 
     /// The lobes in the order they were added.
@@ -97,8 +181,10 @@ impl Bsdf {
     /// Only the lobes that a photon mapper, say, is interested in.
     #[must_use]
     pub fn only(&self, keep: impl Fn(&Lobe) -> bool) -> Self {
-        let mut part = Self { count: 0, ..*self };
-        self.lobes().iter().filter(|lobe| keep(lobe)).for_each(|&lobe| part.add(lobe));
+        let mut part = Self { count: 0, covered: 0, ..*self };
+        for (i, &lobe) in self.lobes().iter().enumerate().filter(|(_, lobe)| keep(lobe)) {
+            part.add_under(lobe, self.is_covered(i));
+        }
         part
     }
 
@@ -106,8 +192,15 @@ impl Bsdf {
     #[must_use]
     pub fn with_ior(mut self, ior: f32) -> Self {
         for lobe in &mut self.lobes[..self.count] {
-            if let Lobe::Dielectric { ior: own, .. } = lobe {
-                *own = ior;
+            match lobe {
+                Lobe::Dielectric { ior: own, .. } => *own = ior,
+                Lobe::RoughDielectric(RoughDielectric { share, tint, .. })
+                    if (ior - 1.0).abs() < RoughDielectric::LEAST_BEND =>
+                {
+                    *lobe = Lobe::Dielectric { share: *share, ior, tint: *tint };
+                }
+                Lobe::RoughDielectric(rough) => rough.ior = ior,
+                _ => {}
             }
         }
         self
@@ -118,14 +211,36 @@ impl Bsdf {
         self.lobes().iter().any(Lobe::transmits)
     }
 
+    /// The unit normal that it scatters about, on the side of the geometric one.
+    pub fn normal(&self) -> Vec3 {
+        self.frame.z
+    }
+
+    /// The same where another solid fills the space on both sides: light passes as if nothing were there.
+    #[must_use]
+    pub fn hidden(self) -> Self {
+        let mut hidden = self.with_ior(1.0);
+        for lobe in &mut hidden.lobes[..hidden.count] {
+            if let Lobe::Dielectric { tint, .. } = lobe {
+                *tint = Rgb::WHITE;
+            }
+        }
+        hidden
+    }
+
     /// Whether any lobe scatters into more than one direction.
     pub fn is_smooth(&self) -> bool {
         self.lobes().iter().any(|lobe| !lobe.is_specular())
     }
 
+    /// About how much light it sends on, seen from `wo`: the sum over the lobes.
+    pub fn albedo(&self, wo: Vec3) -> f32 {
+        self.view(wo).map_or(0.0, |view| self.lobes().iter().map(|lobe| lobe.albedo(view.wo)).sum())
+    }
+
     /// Whether [`Self::sample`] looks at `u_lobe`: not with a single lobe that only reflects.
     pub fn has_choice(&self) -> bool {
-        !matches!(self.lobes(), [lobe] if !matches!(lobe, Lobe::Dielectric { .. }))
+        !matches!(self.lobes(), [lobe] if !lobe.has_choice())
     }
 
     /// The value for a pair of directions times `|cos θi|`, per steradian; zero for specular lobes.
@@ -142,19 +257,20 @@ impl Bsdf {
 
     /// [`Self::eval`] and [`Self::pdf`] at once.
     ///
-    /// Both directions are unit vectors that leave the surface. Light does not pass through a smooth lobe, so both are
-    /// zero when the two lie on different sides of the geometric normal.
+    /// Both directions are unit vectors that leave the surface. Where the two lie on different sides of the geometric
+    /// normal, only lobes that spread light through the surface count.
     pub fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
         const NOTHING: (Rgb, f32) = (Rgb::BLACK, 0.0);
-        if !self.same_side(wo, wi) {
+        let through = !self.same_side(wo, wi);
+        if through && !self.spreads_through() {
             return NOTHING;
         }
         let Some(view) = self.view(wo) else { return NOTHING };
         let wi = view.to_local(wi);
-        if wi.z <= 0.0 {
+        if wi.z == 0.0 || (wi.z < 0.0) != through {
             return NOTHING;
         }
-        self.eval_pdf_local(view.wo, wi)
+        self.eval_pdf_local(&view, wi)
     }
 
     /// Draws a direction: a lobe by `u_lobe`, then from the lobe by `u`.
@@ -163,53 +279,73 @@ impl Bsdf {
     pub fn sample(&self, wo: Vec3, u: Vec2, u_lobe: f32, transport: Transport) -> Option<BsdfSample> {
         let view = self.view(wo)?;
         let (lobe, pmf, u_rest) = self.choose(view.wo, u_lobe)?;
-        let drawn = lobe.sample(view.wo, view.side > 0.0, u, u_rest, transport)?;
+        let drawn = self.lobes[lobe].sample(view.wo, view.side(), u, u_rest, transport)?;
         let wi = self.on_its_side(wo, view.to_world(drawn.wi), &drawn)?;
-        let (weight, pdf) = self.weigh(&view, &drawn, pmf)?;
+        let (weight, pdf) = self.weigh(&view, &drawn, lobe, pmf, transport)?;
         let weight = match transport {
             Transport::Radiance => weight,
             Transport::Importance => weight * self.shading_correction(wo, wi, &view, drawn.wi),
         };
-        let LobeSample { specular, through, eta, .. } = drawn;
-        Some(BsdfSample { wi, weight, pdf, specular, through, eta })
+        let LobeSample { specular, through, enters, eta, .. } = drawn;
+        Some(BsdfSample { wi, weight, pdf, specular, through: through && enters, eta })
     }
 
     /// Weight and density of a drawn direction among all lobes.
-    fn weigh(&self, view: &View, drawn: &LobeSample, pmf: f32) -> Option<(Rgb, f32)> {
+    fn weigh(
+        &self,
+        view: &View,
+        drawn: &LobeSample,
+        lobe: usize,
+        pmf: f32,
+        transport: Transport,
+    ) -> Option<(Rgb, f32)> {
         if drawn.specular || self.count == 1 {
-            return Some((drawn.weight / pmf, drawn.pdf * pmf));
+            let passed = if self.is_covered(lobe) { self.passed(view.wo, drawn.wi) } else { 1.0 };
+            return Some((drawn.weight * (passed / pmf), drawn.pdf * pmf));
         }
-        let (value, pdf) = self.eval_pdf_local(view.wo, drawn.wi);
-        (pdf > 0.0).then(|| (value / pdf, pdf))
+        let (value, pdf) = self.eval_pdf_local(view, drawn.wi);
+        // The value is that of radiance.
+        let scale = transport.refracted(drawn.eta) * drawn.eta * drawn.eta;
+        (pdf > 0.0).then(|| (value * (scale / pdf), pdf))
     }
 
-    /// All smooth lobes together, in the local frame, above the horizon.
-    fn eval_pdf_local(&self, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
+    /// All smooth lobes together, in the local frame.
+    fn eval_pdf_local(&self, view: &View, wi: Vec3) -> (Rgb, f32) {
+        let wo = view.wo;
         let (mut value, mut pdf, mut total) = (Rgb::BLACK, 0.0, 0.0);
-        for lobe in self.lobes() {
+        let passed = if self.covered == 0 { 1.0 } else { self.passed(wo, wi) };
+        for (i, lobe) in self.lobes().iter().enumerate() {
             let share = lobe.albedo(wo);
             total += share;
             if !lobe.is_specular() {
-                let (f, p) = lobe.eval_pdf(wo, wi);
-                value += f;
+                let (f, p) = lobe.eval_pdf(wo, wi, view.side());
+                value += if self.is_covered(i) { f * passed } else { f };
                 pdf += share * p;
             }
         }
         if total > 0.0 { (value, pdf / total) } else { (Rgb::BLACK, 0.0) }
     }
 
+    /// The share of light that reaches what is under the coat and comes out again.
+    ///
+    /// The lesser of what passes at the two angles: reciprocal, and whatever lies below returns no more than the coat
+    /// leaves it.
+    fn passed(&self, wo: Vec3, wi: Vec3) -> f32 {
+        self.coat.map_or(1.0, |coat| coat.passed(wo.z).min(coat.passed(wi.z.abs())))
+    }
+
     /// A lobe with the probability of choosing it, in proportion to its albedo, and what is left of `u`.
-    fn choose(&self, wo: Vec3, u: f32) -> Option<(&Lobe, f32, f32)> {
+    fn choose(&self, wo: Vec3, u: f32) -> Option<(usize, f32, f32)> {
         if let [lobe] = self.lobes() {
-            return (lobe.albedo(wo) > 0.0).then_some((lobe, 1.0, u));
+            return (lobe.albedo(wo) > 0.0).then_some((0, 1.0, u));
         }
         let total: f32 = self.lobes().iter().map(|lobe| lobe.albedo(wo)).sum();
         let mut rest = u * total;
         let mut chosen = None;
-        for lobe in self.lobes() {
+        for (i, lobe) in self.lobes().iter().enumerate() {
             let share = lobe.albedo(wo);
             if share > 0.0 {
-                chosen = Some((lobe, share / total, (rest / share).clamp(0.0, ONE_MINUS)));
+                chosen = Some((i, share / total, (rest / share).clamp(0.0, ONE_MINUS)));
                 if rest < share {
                     break;
                 }
@@ -260,6 +396,11 @@ impl Bsdf {
 }
 
 impl View {
+    /// The side of the geometric normal that the viewer is on.
+    fn side(&self) -> Side {
+        if self.side > 0.0 { Side::Outside } else { Side::Inside }
+    }
+
     fn to_local(&self, w: Vec3) -> Vec3 {
         let w = self.frame.to_local(w);
         Vec3::new(w.x, w.y, w.z * self.side)

@@ -2,7 +2,7 @@
 
 use super::surface::interpolate_point;
 use super::{Geometry, Prim, PrimId, SurfacePoint};
-use crate::math::{Bounds, Vec2, Vec3, warp};
+use crate::math::{Bounds, DVec3, Vec2, Vec3, warp};
 use crate::render::shape::SolidKind;
 use crate::render::shape::triangle::cross_of_edges;
 
@@ -48,13 +48,21 @@ pub struct Outline {
 }
 
 impl Geometry {
+    /// A box that holds a primitive; `None` for what has no end.
+    pub fn prim_bounds(&self, prim: PrimId) -> Option<Bounds> {
+        match self.prim(prim) {
+            Prim::Triangle(mesh, triangle) => Some(Bounds::of(mesh.corners(triangle))),
+            Prim::Placed(placed, mesh, triangle) => Some(placed.bounds(Bounds::of(mesh.corners(triangle)))),
+            Prim::Solid(solid) => solid.bounds(),
+        }
+    }
+
     /// Where a triangle, disk or sphere lies; `None` for a plane.
     pub fn outline(&self, prim: PrimId) -> Option<Outline> {
         match self.prim(prim) {
-            Prim::Triangle(mesh, corners) => {
-                let corners = mesh.corners(corners);
-                let n = cross_of_edges(corners).normalize().as_vec3().normalize();
-                Some(Outline { bounds: Bounds::of(corners), n: Some(n) })
+            Prim::Triangle(mesh, triangle) => Some(self.outline_of(prim, Bounds::of(mesh.corners(triangle)))),
+            Prim::Placed(placed, mesh, triangle) => {
+                Some(self.outline_of(prim, placed.bounds(Bounds::of(mesh.corners(triangle)))))
             }
             Prim::Solid(solid) => {
                 let is_flat = matches!(solid.solid().kind, SolidKind::Disk);
@@ -67,7 +75,7 @@ impl Geometry {
     /// The area of a primitive in square metres; infinite for planes.
     pub fn area(&self, prim: PrimId) -> f64 {
         match self.prim(prim) {
-            Prim::Triangle(mesh, corners) => cross_of_edges(mesh.corners(corners)).length() * 0.5,
+            Prim::Triangle(..) | Prim::Placed(..) => self.cross(prim).length() * 0.5,
             Prim::Solid(solid) => solid.area(),
         }
     }
@@ -77,16 +85,30 @@ impl Geometry {
     /// # Panics
     /// For planes and surfaces of revolution, which do not shine: the former are endless, the latter are tessellated.
     pub fn sample_area(&self, prim: PrimId, u: Vec2) -> AreaSample {
-        match self.prim(prim) {
-            Prim::Triangle(mesh, corners) => {
-                let corners = mesh.corners(corners);
-                let b = warp::square_to_uniform_triangle(u);
-                let (p, p_error) = interpolate_point(corners, b);
-                let cross = cross_of_edges(corners);
-                let n = cross.normalize().as_vec3().normalize();
-                AreaSample { p, p_error, n, uv: b, pdf_area: (2.0 / cross.length()) as f32 }
+        let b = warp::square_to_uniform_triangle(u);
+        let (p, p_error) = match self.prim(prim) {
+            Prim::Triangle(mesh, triangle) => {
+                let (p, p_error) = interpolate_point(mesh.corners(triangle).map(|p| p.as_dvec3()), b);
+                (p.as_vec3(), p_error.as_vec3())
             }
-            Prim::Solid(solid) => solid.sample_area(u),
+            Prim::Placed(placed, mesh, triangle) => placed.point(mesh, triangle, b),
+            Prim::Solid(solid) => return solid.sample_area(u),
+        };
+        let cross = self.cross(prim);
+        let n = cross.normalize().as_vec3().normalize();
+        AreaSample { p, p_error, n, uv: b, pdf_area: (2.0 / cross.length()) as f32 }
+    }
+
+    fn outline_of(&self, triangle: PrimId, bounds: Bounds) -> Outline {
+        Outline { bounds, n: Some(self.cross(triangle).normalize().as_vec3().normalize()) }
+    }
+
+    /// A vector along the outward normal of a triangle, twice as long as its area; zero for anything else.
+    fn cross(&self, prim: PrimId) -> DVec3 {
+        match self.prim(prim) {
+            Prim::Triangle(mesh, triangle) => cross_of_edges(mesh.corners(triangle)),
+            Prim::Placed(placed, mesh, triangle) => placed.cross(mesh, triangle),
+            Prim::Solid(_) => DVec3::ZERO,
         }
     }
 
@@ -107,7 +129,7 @@ impl Geometry {
     /// The density per steradian with which [`Self::sample_toward`] draws the point `at` of `prim`.
     pub fn pdf_toward(&self, prim: PrimId, from: Vec3, at: &SurfacePoint) -> f32 {
         let pdf_area = match self.prim(prim) {
-            Prim::Triangle(mesh, corners) => (2.0 / cross_of_edges(mesh.corners(corners)).length()) as f32,
+            Prim::Triangle(..) | Prim::Placed(..) => (2.0 / self.cross(prim).length()) as f32,
             Prim::Solid(solid) => match solid.pdf_cone(from) {
                 Some(pdf) => return pdf,
                 None => solid.pdf_area(at.p, at.n),

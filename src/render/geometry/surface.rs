@@ -1,7 +1,8 @@
 //! From a hit to the full surface point, and rays that leave it.
 
+use super::instance::PlacedMesh;
 use super::{AreaSample, Geometry, Hit, Prim, PrimId, SurfacePoint};
-use crate::math::{Bounds, DVec3, Ray, Vec2, Vec3, float};
+use crate::math::{DVec3, Ray, Vec2, Vec3, float};
 use crate::render::shape::Mesh;
 use crate::render::shape::solid::{SolidHit, orthogonal_tangent};
 use crate::render::shape::triangle::cross_of_edges;
@@ -10,7 +11,8 @@ impl Geometry {
     /// Everything about the point where `ray` met the geometry.
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         match self.prim(hit.prim) {
-            Prim::Triangle(mesh, corners) => triangle_point(mesh, corners, hit.uv, hit.prim),
+            Prim::Triangle(mesh, triangle) => triangle_point(mesh, triangle, hit.uv, hit.prim),
+            Prim::Placed(placed, mesh, triangle) => placed_point(placed, mesh, triangle, hit.uv, hit.prim),
             Prim::Solid(solid) => solid.surface_point(ray, SolidHit { t: hit.t, uv: hit.uv }, hit.prim),
         }
     }
@@ -61,16 +63,20 @@ fn offset(p: Vec3, p_error: Vec3, n: Vec3, dir: Vec3) -> Vec3 {
     Vec3::new(outwards(moved.x, shift.x), outwards(moved.y, shift.y), outwards(moved.z, shift.z))
 }
 
+/// The corners of a triangle in double precision.
+pub(super) type Corners = [DVec3; 3];
+
 /// The point with barycentrics `b` (of the second and third vertex) on a triangle.
-pub(super) fn triangle_point(mesh: &Mesh, corners: [u32; 3], b: Vec2, prim: PrimId) -> SurfacePoint {
-    let positions = mesh.corners(corners);
-    let (p, p_error) = interpolate_point(positions, b);
-    let n = cross_of_edges(positions).normalize().as_vec3().normalize();
-    let ns = shading_normal(mesh, corners, b, n);
-    let (uv, tangent) = texture_frame(mesh, corners, b);
+pub(super) fn triangle_point(mesh: &Mesh, triangle: [u32; 3], b: Vec2, prim: PrimId) -> SurfacePoint {
+    let corners = mesh.corners(triangle).map(|p| p.as_dvec3());
+    let (p, p_error) = interpolate_point(corners, b);
+    let p = p.as_vec3();
+    let n = cross_of_edges(mesh.corners(triangle)).normalize().as_vec3().normalize();
+    let ns = shading_normal(mesh, triangle, b, n, |normal| normal);
+    let (uv, tangent) = texture_frame(mesh, triangle, corners, b);
     SurfacePoint {
         p,
-        p_error,
+        p_error: p_error.as_vec3(),
         n,
         ns,
         tangent: orthogonal_tangent(tangent, ns),
@@ -82,17 +88,41 @@ pub(super) fn triangle_point(mesh: &Mesh, corners: [u32; 3], b: Vec2, prim: Prim
     }
 }
 
-/// The point of a triangle with barycentrics `b`, and the bound γ(7)·(Σ|bᵢ·vᵢ| + size) on its error.
+/// The same on a triangle of a mesh that is placed.
+fn placed_point(placed: &PlacedMesh, mesh: &Mesh, triangle: [u32; 3], b: Vec2, prim: PrimId) -> SurfacePoint {
+    let corners = mesh.corners(triangle).map(|p| p.as_dvec3());
+    let (p, p_error) = placed.point(mesh, triangle, b);
+    let n = placed.normal(cross_of_edges(mesh.corners(triangle))).as_vec3().normalize();
+    let ns = shading_normal(mesh, triangle, b, n, |normal| placed.normal(normal.as_dvec3()).as_vec3());
+    let (uv, tangent) = texture_frame(mesh, triangle, corners, b);
+    SurfacePoint {
+        p,
+        p_error,
+        n,
+        ns,
+        tangent: orthogonal_tangent(placed.vector(tangent), ns),
+        uv,
+        // The frame of the mesh is the world as far as the mesh knows.
+        p_object: mesh.object_from_world.transform_point3(interpolate_point(corners, b).0).as_vec3(),
+        material: placed.instance.material,
+        prim,
+        source: placed.instance.source,
+    }
+}
+
+/// The point of a triangle with barycentrics `b`, and the bound γ(7)·(Σ|bᵢ·vᵢ| + size) on its error once it is rounded.
 ///
 /// The sum is the rounding of coordinates, axis by axis. The size of the triangle is what its test rounds by, once it
 /// has sheared the axes into each other: a point of the plane z = 0, where no z is ever rounded, still needs that room.
-pub(super) fn interpolate_point(positions: [Vec3; 3], b: Vec2) -> (Vec3, Vec3) {
-    let size = f64::from(Bounds::of(positions).size().max_element());
+pub(super) fn interpolate_point(corners: Corners, b: Vec2) -> (DVec3, DVec3) {
+    let low = corners[0].min(corners[1]).min(corners[2]);
+    let high = corners[0].max(corners[1]).max(corners[2]);
     let b = weights(b);
-    let terms = [0, 1, 2].map(|i| positions[i].as_dvec3() * b[i]);
+    let terms = [0, 1, 2].map(|i| corners[i] * b[i]);
     let p = terms[0] + terms[1] + terms[2];
+    let size = (high - low).max_element();
     let error = (terms[0].abs() + terms[1].abs() + terms[2].abs() + size) * f64::from(float::gamma(7));
-    (p.as_vec3(), error.as_vec3())
+    (p, error)
 }
 
 /// All three barycentrics from the last two.
@@ -102,18 +132,23 @@ fn weights(b: Vec2) -> [f64; 3] {
 }
 
 /// The interpolated normal on the side of `n`; `n` itself where there is none.
-fn shading_normal(mesh: &Mesh, corners: [u32; 3], b: Vec2, n: Vec3) -> Vec3 {
+fn shading_normal(
+    mesh: &Mesh,
+    triangle: [u32; 3],
+    b: Vec2,
+    n: Vec3,
+    to_world: impl Fn(Vec3) -> Vec3,
+) -> Vec3 {
     let Some(normals) = &mesh.normals else { return n };
-    let [n0, n1, n2] = corners.map(|vertex| normals[vertex as usize]);
+    let [n0, n1, n2] = triangle.map(|vertex| to_world(normals[vertex as usize]));
     let ns = (n0 * (1.0 - b.x - b.y) + n1 * b.x + n2 * b.y).try_normalize().unwrap_or(n);
     if ns.dot(n) < 0.0 { -ns } else { ns }
 }
 
 /// The texture point, and the direction in which its u grows; zero where the texture is degenerate.
-fn texture_frame(mesh: &Mesh, corners: [u32; 3], b: Vec2) -> (Vec2, DVec3) {
-    let [p0, p1, p2] = mesh.corners(corners).map(|p| p.as_dvec3());
+fn texture_frame(mesh: &Mesh, triangle: [u32; 3], [p0, p1, p2]: Corners, b: Vec2) -> (Vec2, DVec3) {
     let Some(uvs) = &mesh.uvs else { return (b, p1 - p0) };
-    let [t0, t1, t2] = corners.map(|vertex| uvs[vertex as usize]);
+    let [t0, t1, t2] = triangle.map(|vertex| uvs[vertex as usize]);
     let uv = t0 * (1.0 - b.x - b.y) + t1 * b.x + t2 * b.y;
     // Solve dp = dp/du·du + dp/dv·dv along two edges; only the direction of dp/du matters.
     let (d1, d2) = ((t1 - t0).as_dvec2(), (t2 - t0).as_dvec2());

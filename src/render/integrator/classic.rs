@@ -6,7 +6,7 @@
 
 use super::{Counters, Integrator, Pass};
 use crate::math::{Ray, Rgb, Vec3, float};
-use crate::render::bsdf::{Material, fresnel_dielectric};
+use crate::render::bsdf::{Glass, Material, fresnel_dielectric};
 use crate::render::geometry::SurfacePoint;
 use crate::render::light::Light;
 use crate::render::media::Media;
@@ -70,7 +70,7 @@ impl<'a> Classic<'a> {
 }
 
 impl Integrator for Classic<'_> {
-    fn begin_pass(&mut self, _: Pass, _: &mut Counters) {}
+    fn begin_pass(&mut self, _: Pass, _: &mut Counters, _: &(dyn Fn() -> bool + Sync)) {}
 
     fn radiance(&self, ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
         let mut radiance = Rgb::BLACK;
@@ -178,6 +178,7 @@ impl Classic<'_> {
         for &(share, part) in vertex.parts {
             if let Material::Diffuse { color: diffuse }
             | Material::Phong { diffuse, .. }
+            | Material::Plastic { color: diffuse, .. }
             | Material::Whitted { diffuse, .. } = *part
             {
                 sum += self.world.materials.color(diffuse, vertex.surface) * share;
@@ -220,7 +221,9 @@ impl Classic<'_> {
 
     /// The refractive index beyond the surface over that on the viewer's side.
     fn eta(&self, surface: &SurfacePoint, part: &Material, media: &Media, from_outside: bool) -> f32 {
-        let (Material::Glass { ior, .. } | Material::Whitted { ior, .. }) = *part else { return 1.0 };
+        let (Material::Glass(Glass { ior, thin: false, .. }) | Material::Whitted { ior, .. }) = *part else {
+            return 1.0;
+        };
         let between = media.relative_ior(surface.material, from_outside, &self.world.materials);
         let ior = between.unwrap_or(ior);
         if from_outside { ior } else { 1.0 / ior }
@@ -233,7 +236,10 @@ impl Classic<'_> {
             Material::Mirror { color: reflection } | Material::Metal { f0: reflection, .. } => {
                 (color(reflection), Rgb::BLACK)
             }
-            Material::Glass { tint, .. } => (Rgb::gray(crossing.fresnel), tint * (1.0 - crossing.fresnel)),
+            Material::Glass(Glass { tint, thin: true, .. }) => (Rgb::BLACK, tint),
+            Material::Glass(Glass { tint, .. }) => {
+                (Rgb::gray(crossing.fresnel), tint * (1.0 - crossing.fresnel))
+            }
             Material::Whitted { reflection, transmission, fresnel, .. } => {
                 let (mirrored, through) = match fresnel {
                     true => (crossing.schlick(), 1.0 - crossing.schlick()),

@@ -6,7 +6,7 @@ mod ppm;
 
 pub use classic::{Classic, ClassicSettings, Shading};
 pub use path::PathTracer;
-pub use ppm::{PhotonMapper, Schedule};
+pub use ppm::PhotonMapper;
 
 use super::film::STREAMS;
 use super::sampler::Sampler;
@@ -15,8 +15,13 @@ use std::ops::AddAssign;
 
 /// A way to find radiance. One value serves a whole render, pass after pass.
 pub trait Integrator: Sync {
-    /// Prepares what all camera rays of a pass share.
-    fn begin_pass(&mut self, pass: Pass, counters: &mut Counters);
+    /// Prepares what all camera rays of a pass share. Once `cancelled`, leaves it unfinished: no ray will ask for it.
+    fn begin_pass(&mut self, pass: Pass, counters: &mut Counters, cancelled: &(dyn Fn() -> bool + Sync));
+
+    /// Of photons: the squared radius of this pass's discs over that of the first pass's. 0 of no photons.
+    fn blur(&self) -> f64 {
+        0.0
+    }
 
     /// The radiance that arrives along a camera ray.
     fn radiance(&self, ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb;

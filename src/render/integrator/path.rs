@@ -1,11 +1,15 @@
 //! Path tracing: paths from the camera, with light and bsdf sampling joined by multiple importance sampling.
+//!
+//! It may leave caustics to photons: each way of light then belongs to one of the two, see [`Caustics`].
 
 use super::{Counters, Integrator, Pass};
 use crate::math::{Ray, Rgb, Vec3};
-use crate::render::bsdf::{Bsdf, BsdfSample, Transport};
-use crate::render::geometry::SurfacePoint;
+use crate::render::bsdf::{Bsdf, BsdfSample, MaterialId, Transport};
+use crate::render::driver::HybridSettings;
+use crate::render::geometry::{PrimId, SurfacePoint};
 use crate::render::light::Viewpoint;
 use crate::render::media::Media;
+use crate::render::photon::{Caustics, Source, gathers};
 use crate::render::sampler::{Dim, Sampler};
 use crate::render::world::World;
 
@@ -13,6 +17,8 @@ use crate::render::world::World;
 pub struct PathTracer<'a> {
     world: &'a World,
     max_depth: u32,
+    /// What is left to photons.
+    caustics: Option<Caustics<'a>>,
 }
 
 /// Where a path is.
@@ -21,6 +27,8 @@ struct Vertex<'a> {
     bsdf: &'a Bsdf,
     wo: Vec3,
     depth: u32,
+    /// Whether a vertex before it scattered widely: photons fall there, not on the camera.
+    after_wide: bool,
 }
 
 /// The vertex a path left last: by what other strategy could light found next have been drawn from there?
@@ -28,25 +36,46 @@ struct Last {
     from: Viewpoint,
     /// The density of the direction taken, per steradian; infinite if nothing else could have found it.
     pdf: f32,
+    /// The surface, if it and all others back to one that scattered widely are sharp: light from here makes a caustic there.
+    sharp: Option<(MaterialId, PrimId)>,
 }
+
+/// After a wide scattering, what a path covers grows by at least this for each metre: what photons bring there is spread
+/// over much more when it is seen, so that blur is hidden and a few photons are enough.
+const WIDE_ANGLE: f32 = 0.003;
 
 impl<'a> PathTracer<'a> {
     /// A tracer of paths with at most `max_depth` vertices, the one on the light included and the camera not.
     pub fn new(world: &'a World, max_depth: u32) -> Self {
-        Self { world, max_depth }
+        Self { world, max_depth, caustics: None }
+    }
+
+    /// One that leaves caustics to photons, if there are any.
+    pub fn with_caustics(world: &'a World, settings: HybridSettings, max_depth: u32) -> Self {
+        Self { world, max_depth, caustics: Caustics::new(world, settings, max_depth) }
     }
 }
 
 impl Integrator for PathTracer<'_> {
-    fn begin_pass(&mut self, _: Pass, _: &mut Counters) {}
+    fn begin_pass(&mut self, pass: Pass, counters: &mut Counters, cancelled: &(dyn Fn() -> bool + Sync)) {
+        if let Some(caustics) = &mut self.caustics {
+            caustics.begin_pass(pass, counters, cancelled);
+        }
+    }
+
+    fn blur(&self) -> f64 {
+        self.caustics.as_ref().map_or(0.0, Caustics::blur)
+    }
 
     fn radiance(&self, mut ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
         let materials = &self.world.materials;
         let mut radiance = Rgb::BLACK;
         let mut beta = Rgb::WHITE;
-        let mut last = Last { from: Viewpoint { p: ray.o, n: None }, pdf: f32::INFINITY };
-        let mut media = Media::NONE;
+        let mut last = Last { from: Viewpoint { p: ray.o, n: None }, pdf: f32::INFINITY, sharp: None };
+        let mut media = Media::start(&self.world.materials, sampler);
         let mut eta_scale = 1.0; // the factor η² that refraction has taken from beta, and will give back
+        let mut after_wide = false;
+        let (mut footprint, mut angle) = (0.0, self.world.camera.pixel_angle());
 
         for depth in 0..self.max_depth {
             // Find the next vertex, or take what the sky sends and stop.
@@ -57,6 +86,7 @@ impl Integrator for PathTracer<'_> {
             let surface = self.world.interaction(&ray, &hit);
             let wo = -ray.d;
             beta *= media.transmittance(hit.t, materials);
+            footprint += angle * hit.t;
 
             // Add light emitted here, then light straight from the lamps.
             radiance += beta * self.emitted(&surface, wo, &last);
@@ -64,9 +94,12 @@ impl Integrator for PathTracer<'_> {
                 break;
             }
             let bsdf = self.world.bsdf_between(&surface, wo, &media);
-            let vertex = Vertex { surface: &surface, bsdf: &bsdf, wo, depth };
+            let vertex = Vertex { surface: &surface, bsdf: &bsdf, wo, depth, after_wide };
             if bsdf.is_smooth() {
                 radiance += beta * self.direct(&vertex, &media, sampler, counters);
+                if let Some(caustics) = &self.caustics {
+                    radiance += beta * caustics.radiance(&surface, &bsdf, wo, depth + 1, footprint);
+                }
             }
 
             // Follow one direction onwards.
@@ -74,10 +107,22 @@ impl Integrator for PathTracer<'_> {
             beta *= next.weight;
             eta_scale *= next.eta * next.eta;
             ray = surface.spawn(next.wi);
-            last =
-                Last { from: vertex.viewpoint(), pdf: if next.specular { f32::INFINITY } else { next.pdf } };
+            last = Last {
+                from: vertex.viewpoint(),
+                pdf: if next.specular { f32::INFINITY } else { next.pdf },
+                sharp: None,
+            };
+            if self.caustics.is_some() {
+                let (is_sharp, share) = vertex.split(&next, sampler);
+                beta *= share;
+                if is_sharp {
+                    last.sharp = after_wide.then_some((surface.material, surface.prim));
+                } else {
+                    (after_wide, angle) = (true, angle.max(WIDE_ANGLE));
+                }
+            }
             if next.through {
-                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
+                beta *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &self.world.materials);
             }
 
             // End dim paths early; the survivors carry their weight.
@@ -97,6 +142,9 @@ impl PathTracer<'_> {
     /// What the sky sends along a direction taken at the last vertex, weighed against drawing it as a light.
     fn sky(&self, dir: Vec3, last: &Last) -> Rgb {
         let (radiance, _) = self.world.lights.sky(dir);
+        if last.sharp.is_some() && self.is_left(Source::Sky, last.sharp) {
+            return Rgb::BLACK;
+        }
         if radiance.is_black() || last.pdf == f32::INFINITY {
             return radiance;
         }
@@ -106,10 +154,37 @@ impl PathTracer<'_> {
     /// What the surface emits towards the last vertex, weighed against drawing it as a light.
     fn emitted(&self, surface: &SurfacePoint, wo: Vec3, last: &Last) -> Rgb {
         let radiance = self.world.emitted(surface, wo);
-        if radiance.is_black() || last.pdf == f32::INFINITY {
+        if radiance.is_black() {
             return radiance;
         }
-        radiance * mis_weight(last.pdf, self.world.lights.pdf_area(&self.world.geometry, &last.from, surface))
+        let lights = &self.world.lights;
+        if last.sharp.is_some() && lights.draws(surface.prim) && self.is_left(Source::Near, last.sharp) {
+            return Rgb::BLACK;
+        }
+        if last.pdf == f32::INFINITY {
+            return radiance;
+        }
+        radiance * mis_weight(last.pdf, lights.pdf_area(&self.world.geometry, &last.from, surface))
+    }
+
+    /// Whether light that went by way of `sharp` to a surface that scatters widely is left to photons.
+    fn is_left(&self, source: Source, sharp: Option<(MaterialId, PrimId)>) -> bool {
+        match (&self.caustics, sharp) {
+            (Some(caustics), Some((material, prim))) => caustics.owns(source, material, prim),
+            _ => false,
+        }
+    }
+
+    /// The lobes of a vertex for light straight from `source`, and the density with which the bsdf finds it.
+    ///
+    /// Where a path came from a vertex that scattered widely, light by way of the sharp lobes may be left to photons.
+    fn eval_pdf(&self, vertex: &Vertex, source: Source, wi: Vec3) -> (Rgb, f32) {
+        let (value, pdf) = vertex.bsdf.eval_pdf(vertex.wo, wi);
+        let sharp = vertex.after_wide.then_some((vertex.surface.material, vertex.surface.prim));
+        if sharp.is_none() || vertex.bsdf.lobes().iter().all(gathers) || !self.is_left(source, sharp) {
+            return (value, pdf);
+        }
+        (vertex.bsdf.only(gathers).eval(vertex.wo, wi), pdf)
     }
 
     /// What one light sends straight to a vertex and on to the viewer, weighed against finding it by the bsdf.
@@ -119,8 +194,8 @@ impl PathTracer<'_> {
         let Some(drawn) = world.lights.sample_li(&world.geometry, &vertex.viewpoint(), u_choice, u) else {
             return Rgb::BLACK;
         };
-        let (value, pdf_bsdf) = vertex.bsdf.eval_pdf(vertex.wo, drawn.wi);
-        let arriving = value * drawn.radiance;
+        let (value, pdf_bsdf) = self.eval_pdf(vertex, Source::of(&drawn), drawn.wi);
+        let mut arriving = value * drawn.radiance;
         if arriving.is_black() {
             return Rgb::BLACK;
         }
@@ -129,6 +204,11 @@ impl PathTracer<'_> {
             return Rgb::BLACK;
         }
         let weight = if drawn.delta { 1.0 } else { mis_weight(drawn.pdf, pdf_bsdf) };
+        let mut media = *media;
+        let n = vertex.surface.n;
+        if vertex.wo.dot(n) * drawn.wi.dot(n) < 0.0 && vertex.bsdf.spreads_through() {
+            arriving *= media.pass(vertex.surface.material, drawn.wi.dot(n) < 0.0, &world.materials);
+        }
         arriving * media.transmittance(drawn.distance(), &world.materials) * (weight / drawn.pdf)
     }
 }
@@ -136,7 +216,7 @@ impl PathTracer<'_> {
 impl Vertex<'_> {
     /// From where it looks for light: above its surface, unless light may come through it.
     fn viewpoint(&self) -> Viewpoint {
-        let ns = self.surface.ns;
+        let ns = self.bsdf.normal();
         let n = if self.wo.dot(self.surface.n) < 0.0 { -ns } else { ns };
         Viewpoint { p: self.surface.p, n: (!self.bsdf.transmits()).then_some(n) }
     }
@@ -146,6 +226,26 @@ impl Vertex<'_> {
         let u = sampler.get_2d(Dim::Bsdf(self.depth));
         let u_lobe = if self.bsdf.has_choice() { sampler.get_1d(Dim::Lobe(self.depth)) } else { 0.0 };
         self.bsdf.sample(self.wo, u, u_lobe, Transport::Radiance)
+    }
+
+    /// Whether a drawn direction counts as that of a sharp lobe, and by what to multiply its weight then.
+    ///
+    /// Where lobes of both kinds scatter that way, chance decides, in proportion to what they send.
+    fn split(&self, next: &BsdfSample, sampler: &Sampler) -> (bool, Rgb) {
+        let lobes = self.bsdf.lobes();
+        if next.specular || !lobes.iter().any(gathers) {
+            return (true, Rgb::WHITE);
+        }
+        if lobes.iter().all(|lobe| gathers(lobe) || lobe.is_specular()) {
+            return (false, Rgb::WHITE);
+        }
+        let all = self.bsdf.eval(self.wo, next.wi);
+        let wide = self.bsdf.only(gathers).eval(self.wo, next.wi);
+        let chance = (wide.mean() / all.mean()).clamp(0.0, 1.0); // of being wide
+        let is_wide = sampler.get_1d(Dim::Share(self.depth)) < chance;
+        let (part, chance) = if is_wide { (wide, chance) } else { (all - wide, 1.0 - chance) };
+        let share = |part: f32, all: f32| if all > 0.0 { (part / (all * chance)).max(0.0) } else { 0.0 };
+        (!is_wide, Rgb::new(share(part.r, all.r), share(part.g, all.g), share(part.b, all.b)))
     }
 }
 

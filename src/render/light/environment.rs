@@ -1,6 +1,7 @@
 //! Light from infinity: one colour, or a picture wrapped around the world.
 
 use super::distribution::GridDistribution;
+use super::sun::Sun;
 use crate::math::{Rgb, Vec2, Vec3, float, warp};
 use crate::render::texture::Image;
 use std::f64::consts::{PI, TAU};
@@ -24,6 +25,22 @@ pub enum EnvironmentRadiance {
     Constant(Rgb),
     /// Equirectangular: the top row is +y, the centre −z, and the right of the centre +x.
     Image(Arc<Image>),
+    /// A picture of the sky, as above, and the sun that is not in it.
+    Daylight {
+        /// The sky without the sun.
+        sky: Arc<Image>,
+        /// The sun, if it shines.
+        sun: Option<Sun>,
+    },
+}
+
+impl EnvironmentRadiance {
+    fn image(&self) -> Option<&Image> {
+        match self {
+            Self::Constant(_) => None,
+            Self::Image(image) | Self::Daylight { sky: image, .. } => Some(image),
+        }
+    }
 }
 
 /// An environment made ready to be drawn from.
@@ -31,6 +48,8 @@ pub struct Sky {
     environment: Environment,
     /// Over the texels of a picture that is not black.
     grid: Option<GridDistribution>,
+    /// The sun, and the share of directions that are drawn to it.
+    sun: Option<(Sun, f32)>,
     mean: Rgb,
     /// Over the texels brighter than the mean, by how much they are.
     peaks: Option<GridDistribution>,
@@ -41,29 +60,40 @@ pub struct Sky {
 impl Sky {
     /// Makes an environment ready.
     pub fn new(environment: Environment) -> Self {
-        let EnvironmentRadiance::Image(image) = &environment.radiance else {
+        let (sun, from_sun) = match &environment.radiance {
+            EnvironmentRadiance::Daylight { sun: Some(sun), .. } => {
+                (Some(*sun), sun.radiance * (sun.solid_angle() / (4.0 * PI)) as f32)
+            }
+            _ => (None, Rgb::BLACK),
+        };
+        let share = |mean: Rgb| sun.map(|sun| (sun, sun_share(from_sun.luminance(), mean.luminance())));
+        let Some(image) = environment.radiance.image() else {
             let mean = match &environment.radiance {
                 EnvironmentRadiance::Constant(color) => *color * environment.scale,
-                EnvironmentRadiance::Image(_) => unreachable!("it is no picture"),
+                _ => unreachable!("it is no picture"),
             };
-            return Self { environment, grid: None, mean, peaks: None, peak_mean: 0.0 };
+            return Self { environment, grid: None, sun: None, mean, peaks: None, peak_mean: 0.0 };
         };
         let weights = texel_weights(image);
         let over = weights_over_mean(image, &weights);
         let width = image.width() as usize;
         let (grid, peaks) = (GridDistribution::new(width, &weights), GridDistribution::new(width, &over));
-        let peak_mean = (over.iter().sum::<f64>() / (4.0 * PI)) as f32 * environment.scale;
-        let mean = mean_radiance(image) * environment.scale;
-        Self { environment, grid, mean, peaks, peak_mean }
+        let peak_mean = (over.iter().sum::<f64>() / (4.0 * PI)) as f32 + from_sun.luminance();
+        let (peak_mean, dome) = (peak_mean * environment.scale, mean_radiance(image));
+        let (sun, mean) = (share(dome), (dome + from_sun) * environment.scale);
+        Self { environment, grid, sun, mean, peaks, peak_mean }
     }
 
     /// The radiance from the unit direction `dir`; between texel centres of a picture it goes in straight lines.
     pub fn radiance(&self, dir: Vec3) -> Rgb {
         let radiance = match &self.environment.radiance {
             EnvironmentRadiance::Constant(color) => *color,
-            EnvironmentRadiance::Image(image) => interpolate(image, self.image_point(dir)),
+            EnvironmentRadiance::Image(image) | EnvironmentRadiance::Daylight { sky: image, .. } => {
+                interpolate(image, self.image_point(dir))
+            }
         };
-        radiance * self.environment.scale
+        let sun = self.sun.filter(|(sun, _)| sun.meets(dir));
+        (radiance + sun.map_or(Rgb::BLACK, |(sun, _)| sun.radiance)) * self.environment.scale
     }
 
     /// The mean radiance over all directions.
@@ -73,7 +103,24 @@ impl Sky {
 
     /// Draws a direction, and its density per steradian.
     pub fn sample(&self, u: Vec2) -> (Vec3, f32) {
-        let (Some(grid), EnvironmentRadiance::Image(image)) = (&self.grid, &self.environment.radiance) else {
+        let Some((sun, share)) = &self.sun else { return self.sample_dome(u) };
+        let dir = if u.x < *share {
+            sun.sample(Vec2::new(u.x / share, u.y))
+        } else {
+            self.sample_dome(Vec2::new(((u.x - share) / (1.0 - share)).min(BELOW_ONE), u.y)).0
+        };
+        (dir, self.pdf(dir))
+    }
+
+    /// The density per steradian with which [`Self::sample`] draws `dir`.
+    pub fn pdf(&self, dir: Vec3) -> f32 {
+        let Some((sun, share)) = &self.sun else { return self.pdf_dome(dir) };
+        let to_sun = if sun.meets(dir) { (1.0 / sun.solid_angle()) as f32 } else { 0.0 };
+        share * to_sun + (1.0 - share) * self.pdf_dome(dir)
+    }
+
+    fn sample_dome(&self, u: Vec2) -> (Vec3, f32) {
+        let (Some(grid), Some(image)) = (&self.grid, self.environment.radiance.image()) else {
             return (warp::square_to_uniform_sphere(u), UNIFORM_PDF);
         };
         draw(grid, image, self.environment.rotation, u)
@@ -85,33 +132,46 @@ impl Sky {
     /// Density is in proportion to the luminance above the mean: what is left to chance needs no drawing (Karlík, Šik,
     /// Vévoda, Skřivan, Křivánek 2019, section 4).
     pub fn sample_direct(&self, u: Vec2) -> Option<(Vec3, f32)> {
-        match (&self.peaks, &self.environment.radiance) {
-            (Some(peaks), EnvironmentRadiance::Image(image)) => {
-                Some(draw(peaks, image, self.environment.rotation, u))
-            }
-            _ => None,
-        }
+        let peak = |u| {
+            let (peaks, image) = (self.peaks.as_ref()?, self.environment.radiance.image()?);
+            Some(draw(peaks, image, self.environment.rotation, u))
+        };
+        let Some((sun, share)) = self.direct_sun() else { return peak(u) };
+        let dir = if u.x < share {
+            sun.sample(Vec2::new(u.x / share, u.y))
+        } else {
+            peak(Vec2::new(((u.x - share) / (1.0 - share)).min(BELOW_ONE), u.y))?.0
+        };
+        Some((dir, self.pdf_direct(dir)))
     }
 
     /// The density per steradian with which [`Self::sample_direct`] draws `dir`.
     pub fn pdf_direct(&self, dir: Vec3) -> f32 {
-        self.peaks.as_ref().map_or(0.0, |peaks| self.density(peaks, dir))
+        let peak = self.peaks.as_ref().map_or(0.0, |peaks| self.density(peaks, dir));
+        let Some((sun, share)) = self.direct_sun() else { return peak };
+        let to_sun = if sun.meets(dir) { (1.0 / sun.solid_angle()) as f32 } else { 0.0 };
+        share * to_sun + (1.0 - share) * peak
+    }
+
+    /// The sun, and the share of what is drawn directly that goes to it: all, where the sky has no peaks.
+    fn direct_sun(&self) -> Option<(Sun, f32)> {
+        self.sun.map(|(sun, share)| (sun, if self.peaks.is_some() { share } else { 1.0 }))
     }
 
     /// The irradiance on any surface from a sky as bright everywhere as [`Self::sample_direct`] finds it on average, as
     /// luminance.
     pub fn direct_irradiance(&self) -> f32 {
-        if self.peaks.is_some() { self.peak_mean * std::f32::consts::PI } else { 0.0 }
+        let is_drawn = self.peaks.is_some() || self.sun.is_some();
+        if is_drawn { self.peak_mean * std::f32::consts::PI } else { 0.0 }
     }
 
-    /// The density per steradian with which [`Self::sample`] draws `dir`.
-    pub fn pdf(&self, dir: Vec3) -> f32 {
+    fn pdf_dome(&self, dir: Vec3) -> f32 {
         self.grid.as_ref().map_or(UNIFORM_PDF, |grid| self.density(grid, dir))
     }
 
     /// The density per steradian with which a direction is drawn from a grid over the picture's texels.
     fn density(&self, grid: &GridDistribution, dir: Vec3) -> f32 {
-        let EnvironmentRadiance::Image(image) = &self.environment.radiance else { return UNIFORM_PDF };
+        let Some(image) = self.environment.radiance.image() else { return UNIFORM_PDF };
         let [s, t] = self.image_point(dir);
         let column = ((s * f64::from(image.width())) as usize).min(image.width() as usize - 1);
         let row = ((t * f64::from(image.height())) as usize).min(image.height() as usize - 1);
@@ -125,6 +185,15 @@ impl Sky {
         let phi = float::atan2_64(dir.x, -dir.z) + f64::from(self.environment.rotation);
         [(phi / TAU + 0.5).rem_euclid(1.0), theta / PI]
     }
+}
+
+/// The largest number below 1.
+const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
+
+/// The share of directions drawn to the sun, by the light from it and from the sky: neither is forgotten.
+fn sun_share(sun: f32, sky: f32) -> f32 {
+    let share = if sun + sky > 0.0 { sun / (sun + sky) } else { 0.5 };
+    share.clamp(0.2, 0.8)
 }
 
 const UNIFORM_PDF: f32 = std::f32::consts::FRAC_1_PI / 4.0;

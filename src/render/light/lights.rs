@@ -176,6 +176,11 @@ impl Lights {
         if own > 0.0 { far * (own / all) * pdf } else { 0.0 }
     }
 
+    /// Whether points of a shining primitive are ever drawn, and photons leave it.
+    pub fn draws(&self, prim: PrimId) -> bool {
+        self.by_prim.contains_key(&prim)
+    }
+
     /// Every light.
     pub fn all(&self) -> &[Light] {
         &self.lights
@@ -190,6 +195,9 @@ impl Lights {
 
     /// The probabilities of lights with a place and of those at infinity; both 0 where none shines.
     fn shares(&self, from: &Viewpoint) -> (f32, f32) {
+        if self.distant.is_empty() {
+            return if self.emitters.is_empty() { (0.0, 0.0) } else { (1.0, 0.0) };
+        }
         let near = self.tree.importance(from);
         let far: f32 = self
             .distant
@@ -270,9 +278,11 @@ fn parallelograms(lights: &[Light], geometry: &Geometry) -> FxHashMap<PrimId, Pa
 /// The primitives that emit and that points can be drawn from.
 fn shining_prims(geometry: &Geometry, materials: &Materials) -> Vec<PrimId> {
     let shines = |material| !materials.emission(material).is_none();
-    let triangles = geometry
-        .mesh_prims()
-        .filter(|(mesh, _)| shines(mesh.material))
+    let meshes = geometry.mesh_prims().map(|(mesh, prims)| (mesh.material, prims));
+    let instances = geometry.instance_prims().map(|(instance, prims)| (instance.material, prims));
+    let triangles = meshes
+        .chain(instances)
+        .filter(|(material, _)| shines(*material))
         .flat_map(|(_, prims)| prims.map(PrimId));
     let solids = geometry
         .solid_prims()

@@ -9,12 +9,16 @@ mod distribution;
 mod environment;
 mod lights;
 mod rect;
+mod spot;
+mod sun;
 mod tree;
 
 pub use alias::AliasTable;
 pub use cone::Cone;
 pub use environment::{Environment, EnvironmentRadiance, Sky};
 pub use lights::Lights;
+pub use spot::Spot;
+pub use sun::Sun;
 pub use tree::{LightBounds, LightTree, Viewpoint};
 
 use super::bsdf::Emission;
@@ -33,6 +37,8 @@ pub enum Light {
         /// How it fades; all but recursive ray tracing take [`Falloff::PHYSICAL`] only.
         falloff: Falloff,
     },
+    /// Shines from one point into a cone.
+    Spot(Spot),
     /// Shines along one direction from infinitely far away.
     Directional {
         /// The unit direction in which the light travels.
@@ -145,6 +151,7 @@ impl Light {
                 let radiance = *intensity / falloff.divisor(distance);
                 Some(LightSample { wi, radiance, pdf: 1.0, delta: true, end })
             }
+            Self::Spot(spot) => spot.sample_li(from),
             Self::Directional { direction, irradiance } => Some(LightSample {
                 wi: -*direction,
                 radiance: *irradiance,
@@ -172,6 +179,7 @@ impl Light {
                 let ray = Ray::new(*p, warp::square_to_uniform_sphere(u_dir));
                 EmissionSample { ray, weight: *intensity * (4.0 * PI) }
             }
+            Self::Spot(spot) => spot.sample_emission(u_dir),
             Self::Directional { direction, irradiance } => {
                 emission_from_infinity(geometry, *direction, *irradiance, u_pos)
             }
@@ -214,6 +222,13 @@ impl Light {
                     two_sided: front > 0.0 && back > 0.0,
                 })
             }
+            Self::Spot(spot) => Some(LightBounds {
+                bounds: Bounds::new(spot.p, spot.p),
+                intensity: spot.intensity.luminance(),
+                normals: Cone::around(spot.axis),
+                cos_reach: spot.cos_outer,
+                two_sided: false,
+            }),
             Self::Directional { .. } | Self::Environment(_) => None,
         }
     }
@@ -223,13 +238,13 @@ impl Light {
         match self {
             Self::Directional { irradiance, .. } => irradiance.luminance(),
             Self::Environment(sky) => sky.direct_irradiance(),
-            Self::Point { .. } | Self::Area { .. } => 0.0,
+            Self::Point { .. } | Self::Spot(_) | Self::Area { .. } => 0.0,
         }
     }
 
     /// Whether it has no size, so that only a look straight at it finds it.
     pub fn is_delta(&self) -> bool {
-        matches!(self, Self::Point { .. } | Self::Directional { .. })
+        matches!(self, Self::Point { .. } | Self::Spot(_) | Self::Directional { .. })
     }
 
     /// The power it sends into the scene, in watts; infinite for an endless surface.
@@ -237,6 +252,7 @@ impl Light {
         let (_, radius) = ball(geometry);
         match self {
             Self::Point { intensity, .. } => *intensity * (4.0 * PI),
+            Self::Spot(spot) => spot.power(),
             Self::Directional { irradiance, .. } => *irradiance * (PI * radius * radius),
             Self::Area { prim, emission } => {
                 (emission.front + emission.back) * (PI * geometry.area(*prim) as f32)

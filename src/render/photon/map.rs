@@ -4,9 +4,11 @@
 //! photons, coordinates side by side, and inner nodes are eight bytes in depth-first order. Points are split by their
 //! order, never by value, so that any number of equal coordinates is no obstacle.
 
+use super::occupancy::Occupancy;
 use crate::math::{Bounds, Rgb, Vec3};
 use rayon::prelude::*;
 use std::cmp::Ordering;
+use std::ops::ControlFlow;
 
 /// Photons in a leaf.
 const BUCKET: usize = 16;
@@ -77,6 +79,7 @@ pub struct PhotonMap {
     /// Coordinates of each bucket; what is missing in the last one is infinitely far away.
     buckets: Vec<[[f32; BUCKET]; 3]>,
     nodes: Vec<Node>,
+    occupancy: Occupancy,
 }
 
 impl PhotonMap {
@@ -92,8 +95,9 @@ impl PhotonMap {
         let mut nodes = vec![Node::default(); bucket_count.saturating_sub(1)];
         split(&mut points, &mut nodes);
         let buckets = points.par_chunks(BUCKET).map(bucket).collect();
-        let photons = points.par_iter().map(|point| photons[point.index as usize]).collect();
-        Self { photons, buckets, nodes }
+        let photons: Vec<_> = points.par_iter().map(|point| photons[point.index as usize]).collect();
+        let occupancy = Occupancy::new(photons.iter().map(|photon| photon.p));
+        Self { photons, buckets, nodes, occupancy }
     }
 
     /// All photons, in the order of their indices in the map.
@@ -107,6 +111,9 @@ impl PhotonMap {
     /// Nothing is sorted before more than twice `k` are in hand: then the nearest `k` stay, and the radius shrinks to theirs.
     pub fn nearest(&self, disc: &Disc, accepts: impl Fn(&Photon) -> bool, found: &mut Vec<Neighbor>) {
         found.clear();
+        if !self.occupancy.may_hold(disc.p, disc.radius) {
+            return;
+        }
         self.visit(disc.p, disc.radius * disc.radius, |first, bucket, mut reach2| {
             let radii2 = radii2(disc, bucket);
             for (i, &radius2) in radii2.iter().enumerate() {
@@ -123,6 +130,23 @@ impl PhotonMap {
         if found.len() >= disc.k {
             keep_nearest(found, disc.k);
         }
+    }
+
+    /// Shows `visit` the photons within the disc, whatever their number, until it breaks off; `disc.k` does not count.
+    pub fn within(&self, disc: &Disc, mut visit: impl FnMut(&Photon) -> ControlFlow<()>) {
+        if !self.occupancy.may_hold(disc.p, disc.radius) {
+            return;
+        }
+        let radius2 = disc.radius * disc.radius;
+        self.visit(disc.p, radius2, |first, bucket, reach2| {
+            let radii2 = radii2(disc, bucket);
+            for (i, _) in radii2.iter().enumerate().filter(|(_, r2)| **r2 <= reach2) {
+                if visit(&self.photons[first + i]).is_break() {
+                    return f32::NEG_INFINITY; // nothing is as near as that
+                }
+            }
+            reach2
+        });
     }
 
     /// Shows `scan` the buckets that reach into the ball of squared radius `reach2`, near ones first.

@@ -22,17 +22,26 @@ pub fn gathers(lobe: &Lobe) -> bool {
     match *lobe {
         Lobe::Lambert { .. } => true,
         Lobe::Phong { exponent, .. } => exponent <= SHARP_EXPONENT,
-        Lobe::Conductor { alpha, .. } => alpha >= SHARP_ALPHA,
-        Lobe::Mirror { .. } | Lobe::Dielectric { .. } => false,
+        Lobe::Conductor(rough) => rough.alpha >= SHARP_ALPHA,
+        Lobe::Substrate(_) => true,
+        Lobe::Mirror(_) | Lobe::Dielectric { .. } | Lobe::RoughDielectric(_) | Lobe::Pane(_) => false,
     }
 }
 
 /// Emits `count` photons and follows them through the scene; what they leave on surfaces, in the order of emission.
 ///
-/// Light is chosen by power. `max_depth` bounds the vertices of a path from the light to the camera.
-pub fn trace_photons(world: &World, pass: Pass, count: u32, max_depth: u32) -> (Vec<Photon>, Counters) {
+/// Light is chosen by power. `max_depth` bounds the vertices of a path from the light to the camera. Once `cancelled`, no
+/// more are emitted.
+pub fn trace_photons(
+    world: &World,
+    pass: Pass,
+    count: u32,
+    max_depth: u32,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> (Vec<Photon>, Counters) {
     let chunks: Vec<_> = (0..count.div_ceil(CHUNK))
         .into_par_iter()
+        .filter(|_| !cancelled())
         .map(|chunk| {
             let mut tracer = Tracer { world, max_depth, photons: Vec::new(), rays: 0 };
             for photon in chunk * CHUNK..count.min((chunk + 1) * CHUNK) {
@@ -67,7 +76,7 @@ impl Tracer<'_> {
 
     /// Along a ray, from surface to surface, leaving a photon on each that gathers them.
     fn follow(&mut self, mut ray: Ray, mut power: Rgb, sampler: &Sampler) {
-        let mut media = Media::NONE;
+        let mut media = Media::start(&self.world.materials, sampler);
         for bounce in 0..self.max_depth.saturating_sub(1) {
             self.rays += 1;
             let Some(hit) = self.world.closest_hit(&ray) else { return };
@@ -93,7 +102,7 @@ impl Tracer<'_> {
             power *= next.weight / survival;
             ray = surface.spawn(next.wi);
             if next.through {
-                media.cross(surface.material, next.wi.dot(surface.n) < 0.0);
+                power *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &self.world.materials);
             }
         }
     }

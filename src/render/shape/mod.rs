@@ -22,7 +22,7 @@ pub struct MaterialId(pub u32);
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
 pub struct SourceId(pub u32);
 
-/// Triangles that share vertices, in world space.
+/// Triangles that share vertices, in world space unless they are shared by instances.
 ///
 /// The geometric normal of a triangle is `(b − a) × (c − a)`: counter-clockwise seen from outside.
 #[derive(Clone)]
@@ -48,6 +48,18 @@ impl Mesh {
     pub fn corners(&self, triangle: [u32; 3]) -> [Vec3; 3] {
         triangle.map(|vertex| self.positions[vertex as usize])
     }
+}
+
+/// A mesh that is placed in the world, perhaps one of many.
+pub struct Instance {
+    /// Which of the shared meshes. Those are in a frame of their own; their material and source count for nothing.
+    pub mesh: usize,
+    /// World space from the frame of the mesh; not singular. May mirror.
+    pub world_from_mesh: DAffine3,
+    /// What it is made of.
+    pub material: MaterialId,
+    /// Where it came from.
+    pub source: SourceId,
 }
 
 /// A shape that is intersected exactly, in double precision, in its own frame.

@@ -1,5 +1,6 @@
 //! The chessboard, on a surface or cut from a block.
 
+use super::Detail;
 use crate::math::{Vec2, Vec3};
 use crate::render::geometry::SurfacePoint;
 
@@ -18,6 +19,16 @@ impl CheckerKind {
         match self {
             Self::Cells(cells) => is_even((surface.uv * cells).extend(0.5)),
             Self::Solid(edge) => is_even(surface.p_object / edge),
+        }
+    }
+}
+
+impl CheckerKind {
+    /// The size of what is finest in it.
+    pub(super) fn detail(self) -> Detail {
+        match self {
+            Self::Cells(cells) => Detail::of_uv(Vec2::splat(0.1) / cells),
+            Self::Solid(edge) => Detail::of_space(0.1 * edge),
         }
     }
 }

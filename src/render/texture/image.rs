@@ -1,7 +1,9 @@
 //! Pictures as textures: where a surface point lies in the picture, and what is there.
 
-use crate::math::{Rgb, Vec2, Vec3};
+use super::Detail;
+use crate::math::{Rgb, Vec2, Vec3, float};
 use crate::render::geometry::SurfacePoint;
+use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// A linear picture in memory.
@@ -84,6 +86,52 @@ pub enum Projection {
         /// The picture's left edge, upwards.
         v: Vec3,
     },
+    /// From a point of object space outwards: u is the longitude around y, v the latitude.
+    Spherical {
+        /// Where it is thrown from, in metres.
+        center: Vec3,
+    },
+    /// On each of the six sides of a box in object space, upright on the four around y.
+    Cubic {
+        /// The centre of the box, in metres.
+        center: Vec3,
+        /// Its edges, in metres.
+        size: Vec3,
+    },
+}
+
+impl Projection {
+    /// The texture point.
+    fn uv(&self, surface: &SurfacePoint) -> Vec2 {
+        match *self {
+            Self::Uv => surface.uv,
+            Self::Planar { origin, u, v } => {
+                let p = surface.p_object - origin;
+                Vec2::new(p.dot(u) / u.length_squared(), p.dot(v) / v.length_squared())
+            }
+            Self::Spherical { center } => {
+                let d = (surface.p_object - center).normalize_or(Vec3::Y);
+                let around = float::atan2(d.x, d.z) / TAU + 0.5;
+                Vec2::new(around, 1.0 - float::acos(d.y.clamp(-1.0, 1.0)) / PI)
+            }
+            Self::Cubic { center, size } => cubic((surface.p_object - center) / size),
+        }
+    }
+}
+
+/// The texture point on the side of the unit cube about the origin that lies farthest out from `p`; seen from outside,
+/// no side is mirrored.
+fn cubic(p: Vec3) -> Vec2 {
+    let [x, y, z] = p.to_array();
+    let away = p.abs();
+    let (u, v) = if away.y >= away.x && away.y >= away.z {
+        (x, if y < 0.0 { z } else { -z })
+    } else if away.x >= away.z {
+        (if x < 0.0 { z } else { -z }, y)
+    } else {
+        (if z < 0.0 { -x } else { x }, y)
+    };
+    Vec2::new(u, v) + 0.5
 }
 
 /// A picture laid over a surface. Texture point (0, 0) is its bottom left, (1, 1) its top right.
@@ -97,6 +145,8 @@ pub struct ImageTexture {
     pub filter: ImageFilter,
     /// Texture points are multiplied by this …
     pub uv_scale: Vec2,
+    /// … turned by an angle of this cosine and sine …
+    pub uv_turn: Vec2,
     /// … and then moved by this.
     pub uv_offset: Vec2,
     /// Where texture points come from.
@@ -106,14 +156,23 @@ pub struct ImageTexture {
 impl ImageTexture {
     /// The linear colour at a point of a surface.
     pub(super) fn eval(&self, surface: &SurfacePoint) -> Rgb {
-        let uv = match self.projection {
-            Projection::Uv => surface.uv,
-            Projection::Planar { origin, u, v } => {
-                let p = surface.p_object - origin;
-                Vec2::new(p.dot(u) / u.length_squared(), p.dot(v) / v.length_squared())
+        let uv = self.projection.uv(surface) * self.uv_scale;
+        self.lookup(self.uv_turn.rotate(uv) + self.uv_offset)
+    }
+
+    /// The size of what is finest in it, where the texture point is the surface's own: a texel.
+    pub(super) fn detail(&self) -> Detail {
+        let texel = Vec2::ONE / Vec2::new(self.image.width as f32, self.image.height as f32);
+        match self.projection {
+            Projection::Uv => Detail::of_uv(texel / self.uv_scale.abs().max_element()),
+            Projection::Planar { u, v, .. } => Detail::of_space(
+                (texel.x * u.length()).min(texel.y * v.length()) / self.uv_scale.abs().max_element(),
+            ),
+            Projection::Spherical { .. } => Detail::of_uv(texel),
+            Projection::Cubic { size, .. } => {
+                Detail::of_space(texel.min_element() * size.min_element() / self.uv_scale.abs().max_element())
             }
-        };
-        self.lookup(uv * self.uv_scale + self.uv_offset)
+        }
     }
 
     /// The colour at a point of the picture, in units of its sides from the bottom left.
@@ -165,8 +224,8 @@ mod tests {
     /// Four texels: 1 2 above 3 4.
     fn texture(filter: ImageFilter, wrap: Wrap) -> ImageTexture {
         let image = Arc::new(Image::new(2, 2, [1.0, 2.0, 3.0, 4.0].map(Rgb::gray).to_vec()));
-        let (uv_scale, uv_offset, projection) = (Vec2::ONE, Vec2::ZERO, Projection::Uv);
-        ImageTexture { image, wrap, filter, uv_scale, uv_offset, projection }
+        let (uv_scale, uv_turn, uv_offset) = (Vec2::ONE, Vec2::X, Vec2::ZERO);
+        ImageTexture { image, wrap, filter, uv_scale, uv_turn, uv_offset, projection: Projection::Uv }
     }
 
     #[test]
@@ -192,5 +251,23 @@ mod tests {
         let border = texture(ImageFilter::Nearest, Wrap::Border(Rgb::gray(9.0)));
         assert_eq!(border.lookup(Vec2::new(-0.1, 0.5)).r, 9.0);
         assert_eq!(border.lookup(Vec2::new(0.1, 0.9)).r, 1.0);
+    }
+
+    #[test]
+    fn the_sides_of_a_box_show_the_picture_upright_and_not_mirrored() {
+        // Seen from outside along each axis, u grows to the right and v upwards; on top, v runs away from the viewer.
+        let sides = [
+            (Vec3::X, Vec3::NEG_Z, Vec3::Y),
+            (Vec3::NEG_X, Vec3::Z, Vec3::Y),
+            (Vec3::Z, Vec3::X, Vec3::Y),
+            (Vec3::NEG_Z, Vec3::NEG_X, Vec3::Y),
+            (Vec3::Y, Vec3::X, Vec3::NEG_Z),
+            (Vec3::NEG_Y, Vec3::X, Vec3::Z),
+        ];
+        for (out, right, up) in sides {
+            assert!((right.cross(up) - out).length() < 1e-6);
+            let uv = cubic(out * 0.5 + right * 0.25 - up * 0.125);
+            assert!((uv - Vec2::new(0.75, 0.375)).length() < 1e-6, "{out}: {uv}");
+        }
     }
 }

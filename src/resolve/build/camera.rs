@@ -1,8 +1,9 @@
 //! Cameras, lenses and film.
 
-use crate::ir::camera::Fov;
+use crate::ir::camera::{Fov, Mapping};
 use crate::ir::{Camera, Exposure, Film, Filter, Focus, Lens, Tone};
-use crate::math::DVec3;
+use crate::math::{DVec2, DVec3};
+use crate::resolve::dimension::{Dimension, Quantity};
 use crate::resolve::error::Error;
 use crate::resolve::fields::Fields;
 use crate::resolve::{Env, Resolver, Value};
@@ -36,10 +37,13 @@ impl<'a> Resolver<'a> {
         let direction = towards.or_else(|| fields.triple("direction"));
         let mut lens = match fields.value("lens").map(|slot| &slot.value) {
             Some(Value::Lens(lens)) => (**lens).clone(),
-            _ => Lens::Pinhole { focal_length: None },
+            _ => Lens::Pinhole { focal_length: None, shift: DVec2::ZERO },
         };
         // A lens that is told nothing is sharp where the camera looks.
-        if let (Lens::Thin { focus: focus @ None, .. }, Some(target)) = (&mut lens, fields.triple("look_at"))
+        if let (
+            Lens::Thin { focus: focus @ None, .. } | Lens::Prescription { focus: focus @ None, .. },
+            Some(target),
+        ) = (&mut lens, fields.triple("look_at"))
         {
             *focus = Some(target.map(Focus::Point));
         }
@@ -57,8 +61,16 @@ impl<'a> Resolver<'a> {
     }
 
     fn fov(&mut self, fields: &Fields<'a>, lens: &Lens) -> Option<Spanned<Fov>> {
-        let (Lens::Pinhole { focal_length } | Lens::Thin { focal_length, .. }) = lens;
+        let focal_length = lens.focal_length();
         let name = ["fov", "fov_x"].into_iter().find(|name| fields.has(name));
+        if !lens.has_fov() {
+            if let Some((name, lens)) = name.zip(fields.span("lens")) {
+                let (one, other, first) = (name.to_owned(), "lens".to_owned(), fields.span(name)?);
+                let help = "this lens has a view of its own: leave the field of view out".to_owned();
+                self.report(Error::ConflictingFields { help, one, other, first, second: lens });
+            }
+            return None;
+        }
         match (name, focal_length) {
             (Some(name), Some(length)) => {
                 let (one, other) = (name.to_owned(), "focal_length".to_owned());
@@ -78,22 +90,60 @@ impl<'a> Resolver<'a> {
 
     /// A lens of a block.
     pub(super) fn lens(&mut self, fields: &Fields<'a>) -> Option<Lens> {
+        match fields.block.kind {
+            "orthographic" => {
+                let height = fields.number("height").map(|size| Lens::Orthographic { size, is_width: false });
+                return height
+                    .or_else(|| Some(Lens::Orthographic { size: fields.number("width")?, is_width: true }));
+            }
+            "panorama" => {
+                let (width, height) = (fields.number("width")?, fields.number("height")?);
+                return Some(Lens::Panorama { width, height });
+            }
+            "fisheye" => return fisheye(fields),
+            "prescription" => {
+                let (file, aperture) = (fields.text("file")?, fields.number("aperture"));
+                return Some(Lens::Prescription { file, aperture, focus: focus(fields) });
+            }
+            _ => {}
+        }
         let focal_length = fields.number("focal_length");
+        let shift = fields.triple("shift")?.value.truncate();
         if fields.block.kind == "pinhole" {
-            return Some(Lens::Pinhole { focal_length });
+            return Some(Lens::Pinhole { focal_length, shift });
         }
         Some(Lens::Thin {
             focal_length,
             radius: opening(fields, focal_length)?,
-            focus: match fields.value("focus") {
-                Some(Spanned { value: Value::Focus(focus), span }) => {
-                    Some(Spanned::new((**focus).clone(), *span))
-                }
-                _ => None,
-            },
+            focus: focus(fields),
             blades: fields.count("blades")?,
             rotation: fields.number("rotation")?,
+            anamorphic: fields.number("anamorphic")?,
+            cat_eye: fields.number("cat_eye")?,
+            shift,
+            tilt: [fields.number("tilt")?, fields.number("swing")?],
         })
+    }
+
+    /// The steps of exposure of `photo { .. }`: what saturates its film becomes 1.
+    ///
+    /// The luminance that does is 1.2 · 2^EV cd/m² at ISO 100 (ISO 12232, saturation-based speed, lens factor 0.65), and
+    /// EV = log₂(N²/t · 100/S).
+    pub(in crate::resolve) fn photo(&mut self, object: &'a Object, env: &Env<'a>) -> Value<'a> {
+        const LUMENS_A_WATT: f64 = 683.0;
+        let block = schema::block("photo").expect("declared in the registry");
+        let fields = self.read(block, object.kind.span, &object.body, env);
+        let number = |name| fields.number(name).map(|number| number.value);
+        let by_settings = || {
+            let (stop, time, iso) = (number("f_stop")?, number("time")?, number("iso")?);
+            Some(libm::log2(stop * stop / time * 100.0 / iso))
+        };
+        match number("ev").or_else(by_settings) {
+            Some(ev) if !fields.poisoned => {
+                Value::Number(Quantity::new(libm::log2(LUMENS_A_WATT / 1.2) - ev, Dimension::EXPOSURE))
+            }
+            _ => Value::Poison,
+        }
     }
 
     fn film(&mut self, camera: &Fields<'a>) -> Option<Film> {
@@ -126,9 +176,33 @@ impl<'a> Resolver<'a> {
             "agx" => Tone::Agx,
             _ => Tone::Srgb,
         });
+        let crop = fields.nested("crop").and_then(|crop| {
+            let edge = |name| crop.number(name).map(|edge| edge.value);
+            let edges = [edge("left")?, edge("top")?, edge("right")?, edge("bottom")?];
+            Some(Spanned::new(edges, fields.span("crop")?))
+        });
         let pixel_aspect = fields.number("pixel_aspect")?;
-        Some(Film { size, filter, pixel_aspect, sensor: fields.number("sensor")?, exposure, tone })
+        Some(Film { size, crop, filter, pixel_aspect, sensor: fields.number("sensor")?, exposure, tone })
     }
+}
+
+/// What a lens is focused on.
+fn focus(fields: &Fields) -> Option<Spanned<Focus>> {
+    match fields.value("focus") {
+        Some(Spanned { value: Value::Focus(focus), span }) => Some(Spanned::new((**focus).clone(), *span)),
+        _ => None,
+    }
+}
+
+fn fisheye(fields: &Fields) -> Option<Lens> {
+    let mapping = match fields.word("mapping")?.value {
+        "equisolid" => Mapping::EquisolidAngle,
+        "stereographic" => Mapping::Stereographic,
+        "orthographic" => Mapping::Orthographic,
+        _ => Mapping::Equidistant,
+    };
+    let full = fields.word("frame")?.value == "full";
+    Some(Lens::Fisheye { angle: fields.number("angle")?, mapping, full })
 }
 
 /// The radius of the opening: said, or the focal length by twice the f-number.

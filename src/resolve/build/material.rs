@@ -1,24 +1,13 @@
 //! Materials.
 
-use crate::ir::{Brightness, Handle, Input, Material, MaterialKind, MetalColor};
+use super::metal;
+use crate::ir::material::Principled;
+use crate::ir::{Brightness, Handle, Input, Material, MaterialKind, MetalColor, Texture};
 use crate::math::Rgb;
 use crate::resolve::error::Error;
 use crate::resolve::fields::Fields;
 use crate::resolve::{Resolver, Value};
 use crate::source::{Span, Spanned};
-
-/// Reflectance at normal incidence in linear Rec. 709 of the metals known by name.
-///
-/// From measured optical constants (Johnson & Christy 1972; Palik 1985), integrated with the CIE 1931 observer, as
-/// tabulated for real-time rendering by Lagarde 2014.
-const METALS: &[(&str, Rgb)] = &[
-    ("silver", Rgb::new(0.972, 0.960, 0.915)),
-    ("gold", Rgb::new(1.0, 0.766, 0.336)),
-    ("copper", Rgb::new(0.955, 0.637, 0.538)),
-    ("aluminium", Rgb::new(0.913, 0.922, 0.924)),
-    ("iron", Rgb::new(0.562, 0.565, 0.578)),
-    ("chromium", Rgb::new(0.549, 0.556, 0.554)),
-];
 
 impl<'a> Resolver<'a> {
     /// The material of a block.
@@ -47,8 +36,43 @@ impl<'a> Resolver<'a> {
             }
             "glass" => MaterialKind::Glass {
                 ior: fields.number("ior")?,
+                roughness: fields.input("roughness")?,
                 tint: fields.color("tint")?,
                 absorption: self.absorption(fields),
+                abbe: fields.given("abbe"),
+                thin: fields.flag("thin")?.then(|| fields.span("thin").unwrap_or(fields.head)),
+                priority: fields.number("priority")?.value as i32,
+            },
+            "plastic" => MaterialKind::Plastic {
+                color: fields.input("color")?,
+                ior: fields.number("ior")?,
+                roughness: fields.input("roughness")?,
+            },
+            "layer" => MaterialKind::Layer {
+                base: material_of(fields, "base")?,
+                ior: fields.number("ior")?,
+                roughness: fields.input("roughness")?,
+                cover: fields.input("cover")?,
+            },
+            "principled" => MaterialKind::Principled(principled(fields)?),
+            "mask" => MaterialKind::Mask {
+                base: material_of(fields, "material")?,
+                opacity: fields.input("opacity")?,
+                cutoff: fields.given("cutoff").map(|cutoff| cutoff.value),
+            },
+            "two_sided" => MaterialKind::TwoSided {
+                front: material_of(fields, "front")?,
+                back: material_of(fields, "back")?,
+            },
+            "normal_map" => MaterialKind::NormalMap {
+                base: material_of(fields, "material")?,
+                map: texture_of(fields, "map")?,
+                strength: fields.number("strength")?.value,
+            },
+            "bump" => MaterialKind::Bump {
+                base: material_of(fields, "material")?,
+                height: texture_of(fields, "height")?,
+                depth: fields.number("depth")?.value,
             },
             "emissive" => {
                 let brightness = glow_of(fields);
@@ -100,14 +124,35 @@ fn material_of(fields: &Fields, name: &str) -> Option<Handle<Material>> {
     }
 }
 
+fn texture_of(fields: &Fields, name: &str) -> Option<Spanned<Handle<Texture>>> {
+    match fields.value(name)? {
+        Spanned { value: Value::Texture(handle), span } => Some(Spanned::new(*handle, *span)),
+        _ => None,
+    }
+}
+
+fn principled(fields: &Fields) -> Option<Principled> {
+    Some(Principled {
+        color: fields.input("color")?,
+        metallic: fields.input("metallic")?,
+        roughness: fields.input("roughness")?,
+        transmission: fields.input("transmission")?,
+        ior: fields.number("ior")?,
+        clearcoat: fields.input("clearcoat")?,
+        clearcoat_roughness: fields.input("clearcoat_roughness")?,
+        emission: fields.color("emission")?,
+    })
+}
+
 fn metal_color(fields: &Fields) -> Option<MetalColor> {
     if fields.has("color") && !fields.has("kind") {
-        let grey = || Input::Constant(Spanned::new(Rgb::gray(0.5), fields.head));
-        return Some(MetalColor::Color(fields.input("color").unwrap_or_else(grey)));
+        let gray = || Input::Constant(Spanned::new(Rgb::gray(0.5), fields.head));
+        let straight = fields.input("color").unwrap_or_else(gray);
+        return Some(MetalColor::Color { straight, edge: fields.input("edge")? });
     }
     let word = fields.word("kind")?;
-    let (name, color) = METALS.iter().find(|(name, _)| *name == word.value)?;
-    Some(MetalColor::Named(Spanned::new((*name).to_owned(), word.span), *color))
+    let (straight, edge) = metal::measured(word.value)?;
+    Some(MetalColor::Named { name: Spanned::new(word.value.to_owned(), word.span), straight, edge })
 }
 
 fn glow_of(fields: &Fields) -> Spanned<Brightness> {

@@ -1,10 +1,13 @@
 //! From blocks whose fields were read to what they mean: a file per area of the language.
 
 mod camera;
+mod heights;
 mod light;
 mod material;
+mod metal;
 mod render;
 mod shape;
+mod sun;
 mod texture;
 
 use super::error::Error;
@@ -17,31 +20,6 @@ use crate::syntax::ast::{Block, Entry, Object};
 /// Words of other systems for joining solids.
 const CSG: &[&str] = &["difference", "union", "intersection", "merge", "subtract", "csg"];
 
-/// What the language will have later, and what does instead.
-const LATER: &[(&str, &str)] = &[
-    ("sweep", "model it as a `mesh`"),
-    ("heightfield", "model it as a `mesh`"),
-    ("plastic", "use `phong`"),
-    ("principled", "use `phong`, `metal` or `glass`, or a `mix` of them"),
-    ("layer", "use `phong`, or a `mix`"),
-    ("mask", "cut the shape itself"),
-    ("two_sided", "materials show on both sides already"),
-    ("normal_map", "use a finer mesh"),
-    ("bump", "use a finer mesh"),
-    ("gradient", "use `image` or `checker`"),
-    ("noise", "use `image` or `checker`"),
-    ("marble", "use `image`"),
-    ("wood", "use `image`"),
-    ("brick", "use `image` or `checker`"),
-    ("orthographic", "use a long way off and a small `fov`"),
-    ("panorama", "use `pinhole`"),
-    ("fisheye", "use `pinhole`"),
-    ("light spot", "use `light rect` or `light sphere`"),
-    ("light disk", "use `light rect`, or a `disk` of `emissive`"),
-    ("light mesh", "give a `mesh` the material `emissive`"),
-    ("light sun_sky", "use `light directional` and `environment`"),
-];
-
 impl<'a> Resolver<'a> {
     /// A block with its head, as a value.
     pub(super) fn object(&mut self, object: &'a Object, env: &Env<'a>) -> Value<'a> {
@@ -49,6 +27,7 @@ impl<'a> Resolver<'a> {
         match schema::block(&kind).filter(|block| block.area != Area::Item && block.area != Area::Render) {
             Some(block) if kind == "environment" => self.misplaced_block(block, head),
             Some(block) if kind == "film" => self.misplaced_part(block, "camera", head),
+            Some(block) if kind == "photo" || kind == "crop" => self.misplaced_part(block, "film", head),
             None if kind == "photons" || kind == "classic" => {
                 let block = schema::block(&kind).expect("declared in the registry");
                 self.misplaced_part(block, "render", head)
@@ -92,7 +71,11 @@ impl<'a> Resolver<'a> {
         let what = format!("`{}`", block.kind);
         let help = format!(
             "it belongs into `{owner}`: `{field}: {}`",
-            block.example.trim_start_matches("film: ").trim_start_matches("photons: ")
+            block
+                .example
+                .trim_start_matches("film: ")
+                .trim_start_matches("crop: ")
+                .trim_start_matches("photons: ")
         );
         self.poison(Error::Misplaced { what, place: "alone", used, help })
     }
@@ -163,9 +146,6 @@ pub fn block_error(kind: &str, used: Span, is_defined: bool) -> Option<Error> {
     if CSG.contains(&kind) {
         return Some(Error::NoCsg { word: kind.to_owned(), used });
     }
-    if let Some((_, instead)) = LATER.iter().find(|(later, _)| *later == kind) {
-        return Some(Error::NotYet { word: kind.to_owned(), used, help: (*instead).to_owned() });
-    }
     let help = if is_defined {
         let name = kind.split(' ').next().unwrap_or(kind);
         format!("to put it into the picture, write `place {name} {{ .. }}`")
@@ -179,6 +159,9 @@ pub fn block_error(kind: &str, used: Span, is_defined: bool) -> Option<Error> {
 fn foreign_block_help(kind: &str) -> Option<String> {
     let ours = match kind.to_ascii_lowercase().replace('_', "").as_str() {
         "pointlight" => "light point",
+        "spotlight" => "light spot",
+        "disklight" => "light disk",
+        "sunsky" | "daylight" => "light sun_sky",
         "spherelight" | "arealight" => "light sphere",
         "rectlight" | "quadlight" => "light rect",
         "directionallight" | "sunlight" | "sun" => "light directional",

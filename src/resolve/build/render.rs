@@ -39,6 +39,7 @@ fn method(fields: &Fields) -> Option<Spanned<Method>> {
     let method = match word.value {
         "pt" => Method::Pt,
         "ppm" => Method::Ppm,
+        "hybrid" => Method::Hybrid,
         "classic" => Method::Classic,
         _ => return None,
     };

@@ -1,7 +1,7 @@
 //! Objects.
 
 use crate::ir::shape::Method;
-use crate::ir::{Curve, Shape, ShapeKind};
+use crate::ir::{Caps, Curve, Path, Shape, ShapeKind};
 use crate::math::DVec3;
 use crate::resolve::fields::Fields;
 use crate::resolve::node::{Node, NodeKind, steps_of};
@@ -63,6 +63,23 @@ impl<'a> Resolver<'a> {
                 top_radius: fields.block.field("top_radius").and_then(|_| fields.number("top_radius")),
                 caps: fields.flag("caps")?,
             },
+            "sweep" => ShapeKind::Sweep {
+                path: path(fields)?,
+                radius: fields.number("radius")?,
+                end_radius: fields.number("end_radius"),
+                caps: match fields.word("caps")?.value {
+                    "round" => Caps::Round,
+                    "none" => Caps::None,
+                    _ => Caps::Flat,
+                },
+                closed: fields.flag("closed")?,
+                tolerance: fields.number("tolerance"),
+            },
+            "heightfield" => ShapeKind::Heightfield {
+                heights: self.heights(fields)?,
+                size: fields.triple("size")?,
+                smooth: fields.flag("smooth")?,
+            },
             "torus" => ShapeKind::Torus {
                 center: point("center")?,
                 normal: fields.triple("normal")?,
@@ -80,6 +97,7 @@ impl<'a> Resolver<'a> {
                 outline: curve(fields, "outline")?,
                 holes: self.holes(fields),
                 depth: fields.number("depth")?,
+                tolerance: fields.number("tolerance"),
             },
         })
     }
@@ -96,6 +114,13 @@ impl<'a> Resolver<'a> {
             }
         }
         holes
+    }
+}
+
+fn path(fields: &Fields) -> Option<Path> {
+    match &fields.value("path")?.value {
+        Value::Path(path) => Some((**path).clone()),
+        _ => None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Textures and projections.
 
-use crate::ir::material::CheckerCells;
-use crate::ir::{Checker, ImageUse, Projection, Texture, TextureKind, Wrap};
+use crate::ir::material::{Channel, CheckerCells, ColorSpace, Join, Pattern};
+use crate::ir::{Checker, ImageUse, Input, Projection, Texture, TextureKind, Wrap};
 use crate::math::{DVec2, DVec3};
 use crate::resolve::fields::Fields;
 use crate::resolve::{Resolver, Value};
@@ -13,9 +13,30 @@ impl<'a> Resolver<'a> {
         let kind = match fields.block.kind {
             "image" => TextureKind::Image(image(fields)?),
             "checker" => TextureKind::Checker(checker(fields)?),
-            _ => return planar(fields).map(Value::Projection),
+            "blend" => TextureKind::Blend {
+                a: fields.input("a")?,
+                b: fields.input("b")?,
+                amount: fields.input("amount")?,
+            },
+            "planar" | "spherical" | "cubic" => return projection(fields).map(Value::Projection),
+            _ => TextureKind::Pattern {
+                a: fields.input("a")?,
+                b: fields.input("b")?,
+                pattern: pattern(fields)?,
+            },
         };
         Some(Value::Texture(self.scene.textures.push(Texture { kind, span })))
+    }
+
+    /// `image("wood.png") * 0.8`: a texture that is made of what stands on both sides.
+    pub(in crate::resolve) fn join_textures(
+        &mut self,
+        op: Join,
+        a: Input,
+        b: Input,
+        span: Span,
+    ) -> Value<'a> {
+        Value::Texture(self.scene.textures.push(Texture { kind: TextureKind::Join { op, a, b }, span }))
     }
 
     /// `image("wood.png")`.
@@ -27,8 +48,11 @@ impl<'a> Resolver<'a> {
             wrap: Wrap::Repeat,
             linear_filter: true,
             uv_scale: DVec2::ONE,
+            uv_rotation: 0.0,
             uv_offset: DVec2::ZERO,
             projection: Projection::Uv,
+            space: ColorSpace::Auto,
+            channel: Channel::Rgb,
         };
         Value::Texture(self.scene.textures.push(Texture { kind: TextureKind::Image(image), span }))
     }
@@ -47,24 +71,62 @@ fn image(fields: &Fields) -> Option<ImageUse> {
         wrap,
         linear_filter: fields.word("filter")?.value == "linear",
         uv_scale: fields.triple("uv_scale")?.value.truncate(),
+        uv_rotation: fields.number("uv_rotation")?.value,
         uv_offset: fields.triple("uv_offset")?.value.truncate(),
         projection: match fields.value("projection").map(|slot| &slot.value) {
             Some(Value::Projection(projection)) => *projection,
             _ => Projection::Uv,
         },
+        space: match fields.word("space")?.value {
+            "srgb" => ColorSpace::Srgb,
+            "linear" => ColorSpace::Linear,
+            _ => ColorSpace::Auto,
+        },
+        channel: match fields.word("channel")?.value {
+            "red" => Channel::Red,
+            "green" => Channel::Green,
+            "blue" => Channel::Blue,
+            "alpha" => Channel::Alpha,
+            _ => Channel::Rgb,
+        },
     })
 }
 
 fn checker(fields: &Fields) -> Option<Checker> {
-    let cells = match (fields.given("size"), fields.triple("cells")) {
-        (Some(size), _) => CheckerCells::Solid(size.value),
-        (None, Some(cells)) => CheckerCells::Uv(cells.value.truncate()),
-        (None, None) => CheckerCells::Uv(DVec2::splat(fields.number("cells")?.value)),
+    let cells = match fields.given("size") {
+        Some(size) => CheckerCells::Solid(size.value),
+        None => CheckerCells::Uv(cells(fields)?),
     };
-    Some(Checker { a: fields.color("a")?, b: fields.color("b")?, cells })
+    Some(Checker { a: fields.input("a")?, b: fields.input("b")?, cells })
 }
 
-fn planar(fields: &Fields) -> Option<Projection> {
+/// How many along u and v, said or by default.
+fn cells(fields: &Fields) -> Option<DVec2> {
+    match fields.triple("cells") {
+        Some(cells) => Some(cells.value.truncate()),
+        None => Some(DVec2::splat(fields.number("cells")?.value)),
+    }
+}
+
+fn pattern(fields: &Fields) -> Option<Pattern> {
+    let number = |name| Some(fields.number(name)?.value);
+    Some(match fields.block.kind {
+        "gradient" => Pattern::Gradient(match (fields.triple("start"), fields.triple("end")) {
+            (Some(start), Some(end)) => Some([start.value, end.value]),
+            _ => None,
+        }),
+        "noise" => Pattern::Noise { size: number("size")?, octaves: fields.count("octaves")?.value },
+        "marble" => Pattern::Marble { size: number("size")?, turbulence: number("turbulence")? },
+        "wood" => Pattern::Wood { size: number("size")?, turbulence: number("turbulence")? },
+        _ => Pattern::Brick { cells: cells(fields)?, mortar: number("mortar")?, aspect: number("aspect")? },
+    })
+}
+
+fn projection(fields: &Fields) -> Option<Projection> {
     let vector = |name| -> Option<DVec3> { Some(fields.triple(name)?.value) };
-    Some(Projection::Planar { origin: vector("origin")?, u: vector("u")?, v: vector("v")? })
+    Some(match fields.block.kind {
+        "planar" => Projection::Planar { origin: vector("origin")?, u: vector("u")?, v: vector("v")? },
+        "spherical" => Projection::Spherical { center: vector("center")? },
+        _ => Projection::Cubic { center: vector("center")?, size: vector("size")? },
+    })
 }

@@ -1,0 +1,212 @@
+//! How far the mean of all passes may be from the truth, told by the streams alone.
+
+use super::{Film, STREAMS};
+use rayon::prelude::*;
+
+/// The estimated error of the mean picture, as √relMSE; 0.01 is one percent.
+///
+/// relMSE is the mean over pixels and channels of variance / (r² + 0.01 m²), with r the pixel and m the mean luminance.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ErrorEstimate {
+    /// √relMSE.
+    pub error: f64,
+    /// The interval that holds the error of this very picture in 95 % of all renders; `None` below four passes.
+    pub interval: Option<(f64, f64)>,
+    /// √relMSE without the worst 0.1 % of pixels.
+    pub trimmed: f64,
+    /// For photons: how much of the picture's brightness their discs smear, at least, as a share like `error`, which does
+    /// not hold it. `None` of paths, and below six passes.
+    pub blur: Option<f64>,
+}
+
+impl ErrorEstimate {
+    /// The share of the squared error that the worst 0.1 % of pixels hold: near 0.001 where noise is even, near 1 where
+    /// fireflies make the error.
+    pub fn firefly_share(&self) -> f64 {
+        if self.error > 0.0 { 1.0 - (self.trimmed / self.error).powi(2) } else { 0.0 }
+    }
+
+    /// The upper end of the interval, twice the error where that is unknown, with the blur, of which 1.6 times as much
+    /// counts because it is a lower bound.
+    pub fn high(&self) -> f64 {
+        let noise = self.interval.map_or(2.0 * self.error, |(_, high)| high);
+        noise.hypot(1.6 * self.blur.unwrap_or(0.0))
+    }
+
+    /// The interval of noise and blur together; `None` below four passes.
+    pub fn total_interval(&self) -> Option<(f64, f64)> {
+        self.interval.map(|(low, _)| (low.hypot(self.blur.unwrap_or(0.0)), self.high()))
+    }
+
+    /// Noise and blur together.
+    pub fn total(&self) -> f64 {
+        self.error.hypot(self.blur.unwrap_or(0.0))
+    }
+
+    /// How much more must be done, as a factor, until the error is surely below `target`: it falls as 1/√passes.
+    pub fn effort_to(&self, target: f64) -> f64 {
+        (self.high() / target).powi(2)
+    }
+}
+
+/// Streams below which their spread says nothing about itself: of two, both are equally far from their mean.
+const LEAST_STREAMS: usize = 4;
+
+/// t that Student's |t| stays below with 95 %, for 3 to 7 degrees of freedom.
+const STUDENT_95: [f64; STREAMS as usize - LEAST_STREAMS + 1] = [3.182, 2.776, 2.571, 2.447, 2.365];
+
+/// Pixels that one thread sums at a time. The blocks are the same for any number of threads, and so are the sums.
+const BLOCK: usize = 4096;
+
+/// How far the neighbours lie that tell the brightness of a pixel.
+const REACH: u32 = 2;
+
+/// A pixel's channels.
+type Channels = [f64; 3];
+
+impl Film {
+    /// The error of the mean picture; `None` below two passes and for a film without pixels.
+    ///
+    /// The interval compares streams as wholes: how much the squared deviation of one stream's picture varies from
+    /// stream to stream tells how much that of their mean may, whether the noise of its pixels is independent (paths)
+    /// or shared (photons).
+    pub fn error(&self) -> Option<ErrorEstimate> {
+        let n = self.region.area();
+        let streams = self.streams.len();
+        if streams < 2 || n == 0 {
+            return None;
+        }
+        let means: Vec<Channels> = (0..n).into_par_iter().map(|i| self.mean_of(i)).collect();
+        let variances: Vec<Channels> = (0..n).into_par_iter().map(|i| self.variance_of(i)).collect();
+        let luminance = |[r, g, b]: Channels| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let mean = sum_over(n, |i| [luminance(means[i])])[0] / n as f64;
+        let scales = self.scales(&means, &variances, 0.01 * mean * mean);
+
+        let mut terms: Vec<f64> = (0..n).into_par_iter().map(|i| relative(variances[i], scales[i])).collect();
+        let by_stream: [f64; STREAMS as usize] = sum_over(n, |i| self.deviations_of(i, means[i], scales[i]));
+        let rel_mse = terms.iter().sum::<f64>() / n as f64;
+
+        // The worst pixels are put last; the others make the trimmed mean.
+        let kept = n - n / 1000;
+        if kept < n {
+            terms.select_nth_unstable_by(kept, f64::total_cmp);
+        }
+        let trimmed = terms[..kept].iter().sum::<f64>() / kept as f64;
+
+        let interval = relative_spread(&by_stream[..streams]).map(|spread| {
+            // The error of the mean varies like that of a stream; the estimate adds its own uncertainty. On the scale
+            // of factors, where errors below zero do not exist.
+            let t = STUDENT_95[streams - LEAST_STREAMS];
+            let factor = (0.5 * t * spread * (1.0 + 1.0 / streams as f64).sqrt()).exp();
+            (rel_mse.sqrt() / factor, rel_mse.sqrt() * factor)
+        });
+        let blur = self.blur_squared(0).map(|_| {
+            let squares = sum_over(n, |i| [self.blur_squared(i).map_or(0.0, |b| relative(b, scales[i]))]);
+            (squares[0] / n as f64).max(0.0).sqrt()
+        });
+        Some(ErrorEstimate { error: rel_mse.sqrt(), interval, trimmed: trimmed.sqrt(), blur })
+    }
+
+    /// What squared deviations are held against: r² + floor for each pixel, its brightness r as its surroundings let
+    /// expect it.
+    ///
+    /// The pixel's own mean would not do: where it is too high by chance its variance is too, and the quotient of both
+    /// is far too small on average. Its neighbours are drawn apart from it. How much their picture really varies, and
+    /// not by noise, says how much the pixel's own value counts beside their mean (Lee 1980).
+    fn scales(&self, means: &[Channels], variances: &[Channels], floor: f64) -> Vec<Channels> {
+        let width = self.region.width;
+        let pixel = |i: usize| {
+            let around = Surroundings::of(self, i as u32 % width, i as u32 / width, means, variances);
+            [0, 1, 2].map(|c| {
+                // A pixel may be brighter than all around it: a lamp, or a gleam. Two deviations below what was seen it
+                // is so beyond doubt, and fireflies are not.
+                let surely = means[i][c] - 2.0 * variances[i][c].sqrt();
+                let r = around.expected(means[i][c], c).max(surely);
+                r * r + floor
+            })
+        };
+        (0..means.len()).into_par_iter().map(pixel).collect()
+    }
+
+    /// For each stream the squared deviation of its mean from that of all, in proportion to brightness and scaled to
+    /// the variance of one sample.
+    fn deviations_of(&self, index: usize, mean: Channels, scale: Channels) -> [f64; STREAMS as usize] {
+        let mut out = [0.0; STREAMS as usize];
+        for (stream, (sums, out)) in (0..).zip(self.streams.iter().zip(&mut out)) {
+            let count = f64::from(self.passes_of(stream));
+            let of_sample = count / (1.0 - count / f64::from(self.passes));
+            let squares = [0, 1, 2].map(|c| (sums[index][c] / count - mean[c]).powi(2));
+            *out = of_sample * relative(squares, scale);
+        }
+        out
+    }
+}
+
+/// The mean over channels of a square over its scale; 0 where nothing deviates, as in a black picture.
+fn relative(squares: Channels, scale: Channels) -> f64 {
+    let term = |c: usize| if squares[c] != 0.0 { squares[c] / scale[c] } else { 0.0 };
+    (term(0) + term(1) + term(2)) / 3.0
+}
+
+/// Sums over the neighbours of a pixel, itself left out.
+#[derive(Default)]
+struct Surroundings {
+    count: f64,
+    sum: Channels,
+    sum2: Channels,
+    variance: Channels,
+}
+
+impl Surroundings {
+    fn of(film: &Film, x: u32, y: u32, means: &[Channels], variances: &[Channels]) -> Self {
+        let (width, height) = (film.region.width, film.region.height);
+        let mut out = Self::default();
+        for row in y.saturating_sub(REACH)..=(y + REACH).min(height - 1) {
+            for column in x.saturating_sub(REACH)..=(x + REACH).min(width - 1) {
+                let i = (row * width + column) as usize;
+                if (column, row) != (x, y) {
+                    out.count += 1.0;
+                    for c in 0..3 {
+                        out.sum[c] += means[i][c];
+                        out.sum2[c] += means[i][c] * means[i][c];
+                        out.variance[c] += variances[i][c];
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    /// The brightness of a pixel that was seen as `own`.
+    fn expected(&self, own: f64, channel: usize) -> f64 {
+        if self.count < 2.0 {
+            return own;
+        }
+        let mean = self.sum[channel] / self.count;
+        let seen = (self.sum2[channel] - self.sum[channel] * mean) / (self.count - 1.0);
+        let noise = self.variance[channel] / self.count;
+        // Of 24 neighbours, noise alone seems this much larger only once in twenty times.
+        let noise = 1.5 * noise;
+        let share = if seen > noise { (seen - noise) / seen } else { 0.0 };
+        mean + share * (own - mean)
+    }
+}
+
+/// The sum of `f` over all pixels, the same for any number of threads.
+fn sum_over<const K: usize>(n: usize, f: impl Fn(usize) -> [f64; K] + Sync) -> [f64; K] {
+    let add = |mut sum: [f64; K], x: [f64; K]| {
+        sum.iter_mut().zip(x).for_each(|(sum, x)| *sum += x);
+        sum
+    };
+    let block = |b: usize| (b * BLOCK..((b + 1) * BLOCK).min(n)).map(&f).fold([0.0; K], add);
+    let blocks: Vec<[f64; K]> = (0..n.div_ceil(BLOCK)).into_par_iter().map(block).collect();
+    blocks.into_iter().fold([0.0; K], add)
+}
+
+/// The standard deviation over the mean; `None` of too few streams.
+fn relative_spread(values: &[f64]) -> Option<f64> {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let variance = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (n - 1.0);
+    (values.len() >= LEAST_STREAMS && mean > 0.0).then(|| variance.sqrt() / mean)
+}

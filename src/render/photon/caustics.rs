@@ -1,0 +1,156 @@
+//! Caustics: light that falls on a matt surface by way of something sharp, L S⁺ D, from photons that are aimed at it.
+//!
+//! The path tracer leaves exactly these ways of light to the photons, and finds all others itself. Which are they? Call a
+//! lobe sharp if photons are not gathered through it ([`gathers`]), and follow a path from the light: the first vertex is
+//! a target, light leaves it and all further ones through their sharp lobes, and arrives at one that is seen through its
+//! other lobes. A surface with lobes of both kinds takes part in both roles, each lobe in its own.
+
+use super::aim::{Aim, Source};
+use super::{Gather, Photon, PhotonMap, Schedule, gathers};
+use crate::math::{Rgb, Vec3};
+use crate::render::bsdf::{Bsdf, MaterialId, Transport};
+use crate::render::driver::{GatherRadius, HybridSettings};
+use crate::render::geometry::{PrimId, SurfacePoint};
+use crate::render::integrator::{Counters, Pass};
+use crate::render::media::Media;
+use crate::render::sampler::{Dim, Sampler};
+use crate::render::world::World;
+use rayon::prelude::*;
+
+/// Photons that one thread emits in a row.
+const CHUNK: u32 = 1024;
+
+/// A map of caustics, made anew for each pass.
+pub struct Caustics<'a> {
+    world: &'a World,
+    aim: Aim<'a>,
+    settings: HybridSettings,
+    max_depth: u32,
+    schedule: Schedule,
+    map: PhotonMap,
+}
+
+impl<'a> Caustics<'a> {
+    /// Caustics of light along paths with at most `max_depth` vertices, the one on the light included and the camera not;
+    /// `None` when no light reaches anything that could throw one.
+    pub fn new(world: &'a World, settings: HybridSettings, max_depth: u32) -> Option<Self> {
+        let aim = Aim::new(world);
+        let first = match settings.radius {
+            GatherRadius::Meters(radius) => radius,
+            GatherRadius::Pixels(_) => 1.0, // times what a pixel covers
+        };
+        let schedule = Schedule::new(first, settings.shrink);
+        let map = PhotonMap::default();
+        (!aim.is_idle()).then_some(Self { world, aim, settings, max_depth, schedule, map })
+    }
+
+    /// What is left of the square of the first pass's radius in this one.
+    pub fn blur(&self) -> f64 {
+        self.schedule.shrunk()
+    }
+
+    /// Makes the map of a pass; leaves it unfinished once `cancelled`.
+    pub fn begin_pass(&mut self, pass: Pass, counters: &mut Counters, cancelled: &(dyn Fn() -> bool + Sync)) {
+        self.schedule.radius2(pass.index);
+        let count = self.settings.photon_count;
+        let chunks: Vec<_> = (0..count.div_ceil(CHUNK))
+            .into_par_iter()
+            .filter(|_| !cancelled())
+            .map(|chunk| {
+                let mut tracer = Tracer { caustics: self, photons: Vec::new(), rays: 0 };
+                for photon in chunk * CHUNK..count.min((chunk + 1) * CHUNK) {
+                    tracer.emit(&pass.photon_sampler(photon), 1.0 / count as f32);
+                }
+                (tracer.photons, tracer.rays)
+            })
+            .collect();
+        let rays = chunks.iter().map(|(_, rays)| rays).sum();
+        let photons: Vec<Photon> = chunks.into_iter().flat_map(|(photons, _)| photons).collect();
+        *counters += Counters { rays, photons: count.into(), stored_photons: photons.len() as u64 };
+        self.map = PhotonMap::new(&photons);
+    }
+
+    /// Whether photons bring what such light sends by way of this surface as the first: then nothing else may.
+    pub fn owns(&self, source: Source, material: MaterialId, prim: PrimId) -> bool {
+        self.aim.owns(source, material, prim)
+    }
+
+    /// The radiance of the caustics on a surface along `wo`.
+    ///
+    /// `camera_depth` is the number of vertices of the camera path, this one included; `footprint` is the width of what a
+    /// pixel covers here, in metres.
+    pub fn radiance(
+        &self,
+        surface: &SurfacePoint,
+        bsdf: &Bsdf,
+        wo: Vec3,
+        camera_depth: u32,
+        footprint: f32,
+    ) -> Rgb {
+        if self.map.photons().is_empty() {
+            return Rgb::BLACK;
+        }
+        let shrunk = self.schedule.current() as f32;
+        let radius2 = match self.settings.radius {
+            GatherRadius::Meters(_) => shrunk,
+            GatherRadius::Pixels(pixels) => shrunk * (pixels * footprint) * (pixels * footprint),
+        };
+        let max_depth = self.max_depth + 1 - camera_depth; // this vertex belongs to both paths
+        let gather = Gather { radius2, k: self.settings.k.max(2) as usize, max_depth };
+        if bsdf.lobes().iter().all(gathers) {
+            return gather.radiance(&self.map, surface, bsdf, wo);
+        }
+        let wide = bsdf.only(gathers);
+        if wide.lobes().is_empty() { Rgb::BLACK } else { gather.radiance(&self.map, surface, &wide, wo) }
+    }
+}
+
+/// Follows photons one after the other.
+struct Tracer<'a> {
+    caustics: &'a Caustics<'a>,
+    photons: Vec<Photon>,
+    rays: u64,
+}
+
+impl Tracer<'_> {
+    /// One photon, which stands for `share` of all light; left on the surfaces that it reaches by way of sharp lobes alone.
+    fn emit(&mut self, sampler: &Sampler, share: f32) {
+        let Caustics { world, aim, max_depth, .. } = self.caustics;
+        let Some(start) = aim.emit(sampler) else { return };
+        let (mut ray, mut power) = (start.ray, start.power * share);
+        let mut media = Media::start(&world.materials, sampler);
+        for bounce in 0..max_depth.saturating_sub(1) {
+            self.rays += 1;
+            let Some(hit) = world.closest_hit(&ray) else { return };
+            let surface = world.interaction(&ray, &hit);
+            if bounce == 0 && !aim.holds(surface.material, surface.prim, start.from_infinity) {
+                return;
+            }
+            let wi = -ray.d;
+            let bsdf = world.bsdf_between(&surface, wi, &media);
+            power *= media.transmittance(hit.t, &world.materials);
+            if power.is_black() || !power.is_valid() {
+                return;
+            }
+            if bounce > 0 && bsdf.lobes().iter().any(gathers) {
+                let n = if wi.dot(surface.n) < 0.0 { -surface.n } else { surface.n };
+                self.photons.push(Photon { p: surface.p, wi, n, power, depth: bounce + 2 });
+            }
+
+            // Go on through a sharp lobe.
+            let sharp = bsdf.only(|lobe| !gathers(lobe));
+            let (u, u_lobe) = (sampler.get_2d(Dim::Bsdf(bounce)), sampler.get_1d(Dim::Lobe(bounce)));
+            let Some(next) = sharp.sample(wi, u, u_lobe, Transport::Importance) else { return };
+            // What is absorbed ends photons rather than dimming them: those that survive all carry much alike.
+            let survival = next.weight.max_component().min(1.0);
+            if sampler.get_1d(Dim::Roulette(bounce)) >= survival {
+                return;
+            }
+            power *= next.weight / survival;
+            ray = surface.spawn(next.wi);
+            if next.through {
+                power *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &world.materials);
+            }
+        }
+    }
+}
