@@ -2,8 +2,7 @@
 
 use crate::support::*;
 use snell::math::{Rgb, Vec3};
-use snell::render::integrator::Schedule;
-use snell::render::photon::{Disc, Photon, PhotonMap};
+use snell::render::photon::{Disc, Photon, PhotonMap, Schedule};
 
 fn photon(p: Vec3) -> Photon {
     Photon { p, wi: Vec3::Z, n: Vec3::Z, power: Rgb::WHITE, depth: 2 }

@@ -28,7 +28,7 @@ fn hard_case_62_sums_of_millions_of_samples() {
 /// pass. In a plain sum the pixel would be NaN for ever.
 #[test]
 fn hard_case_67_samples_that_are_not_numbers() {
-    let bad = [f32::NAN, f32::INFINITY, -1.0];
+    let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
     let samples = || (0..30_000).map(|i| if i % 1_000 == 7 { bad[i / 1_000 % 3] } else { 0.5 });
     let film = film(samples());
     assert_eq!(film.bad_count(), 30);
