@@ -118,9 +118,18 @@ fn note(text: impl std::fmt::Display) {
     let _ = write!(std::io::stderr().lock(), "{text}");
 }
 
-/// Writes a result to standard output. A pipe closed early is no reason to complain: whoever read it has enough.
+/// Writes a result to standard output, or ends the program with 2 where that fails, on a full disk for instance.
+///
+/// A pipe closed early is no reason to complain: whoever read it has enough.
 fn print(text: impl std::fmt::Display) {
     use std::io::Write;
     let mut out = std::io::stdout().lock();
-    let _ = write!(out, "{text}").and_then(|()| out.flush());
+    match write!(out, "{text}").and_then(|()| out.flush()) {
+        // Who closes a pipe has read enough.
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            note(format_args!("error: standard output cannot be written to: {error}\n"));
+            std::process::exit(2)
+        }
+        _ => {}
+    }
 }

@@ -259,6 +259,8 @@ impl Summary<'_> {
         };
         // Where a few specks are all of the error, what the rest of the picture is like comes first.
         if e.firefly_share() >= MOSTLY_FIREFLIES {
+            // They would pass for blur as well.
+            let blur = if blur.is_empty() { "" } else { "; blur not to be told from them" };
             return format!(
                 "{noise}{} but for the worst 0.1 % of pixels, which are fireflies; {} with them ({interval}){blur}\n          \
                  half of it would take {half}{asked}",

@@ -129,10 +129,24 @@ fn temporary_beside(path: &Path) -> Result<NamedTempFile, OutputError> {
     // A temporary file is private by default; ours is as readable as any other file (the umask still applies).
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder).map_err(|error| unwritable(path, error))
+    let file = if is_special(path) { builder.tempfile() } else { builder.tempfile_in(folder) };
+    file.map_err(|error| unwritable(path, error))
 }
 
-fn keep(file: NamedTempFile, path: &Path) -> Result<(), OutputError> {
+/// Whether a path is a device, a pipe or the like: something to write into, never to put a file in the place of.
+fn is_special(path: &Path) -> bool {
+    path.metadata().is_ok_and(|what| !what.is_file() && !what.is_dir())
+}
+
+fn keep(mut file: NamedTempFile, path: &Path) -> Result<(), OutputError> {
+    if is_special(path) {
+        let copied = file.rewind().and_then(|()| {
+            let mut out = std::fs::OpenOptions::new().write(true).open(path)?;
+            io::copy(&mut file, &mut out)?;
+            out.flush()
+        });
+        return copied.map_err(|error| unwritable(path, error));
+    }
     file.as_file().sync_all().map_err(|error| unwritable(path, error))?;
     file.persist(path).map(drop).map_err(|error| unwritable(path, error.error))
 }

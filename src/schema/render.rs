@@ -23,7 +23,7 @@ const RENDER: &[Field] = &[
 ];
 
 const PHOTONS: &[Field] = &[
-    field("count", Type::Int, "Emitted a pass.").within(Range::at_least(1.0).physical()).like("200000"),
+    field("count", Type::Int, "Emitted a pass.").within(Range::closed(1.0, 1e9).physical()).like("200000"),
     field("k", Type::Int, "The most photons of an estimate.")
         .within(Range::at_least(1.0).physical())
         .like("60"),
