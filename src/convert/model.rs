@@ -29,13 +29,15 @@ pub struct Settings {
     pub samples: Option<u32>,
 }
 
-/// A pinhole camera, perhaps with a lens.
+/// A camera: a pinhole, a lens or parallel rays.
 #[derive(Debug)]
 pub struct Camera {
     pub center: DVec3,
     pub direction: DVec3,
     pub up: DVec3,
     pub angle: f64,
+    /// The height of what parallel rays see, of a camera that has those rather than an angle.
+    pub parallel: Option<f64>,
     /// Whether `angle` is the horizontal field of view rather than the vertical one.
     pub is_across: bool,
     /// The width of a pixel by its height.

@@ -387,7 +387,7 @@ fn odds_and_ends_of_the_top_level() {
     );
     assert_said(
         "OrthographicCamera { center 0 0 9 direction 0 0 -1 up 0 1 0 size 4 }",
-        "position: (0, 0, 4009)",
+        "position: (0, 0, 409) direction: (0, 0, -1) lens: orthographic { height: 4 }",
     );
     assert_said(
         "PerspectiveCamera { position 0 0 9 lookAt 0 0 0 up 0 1 0 fov 30; width 8, height 8 }",
