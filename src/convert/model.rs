@@ -73,9 +73,10 @@ pub struct Background {
 /// A light of the `Lights` block.
 #[derive(Debug)]
 pub enum Light {
-    /// The original adds `color / (a + b d + e d^2)` at distance d, for `falloff` (a, b, e).
+    /// The original adds `color / (a + b d + e d^2)` at distance d, for `falloff` (a, b, e); in a cone, if it has one.
     Point {
         position: DVec3,
+        cone: Option<Cone>,
         color: DVec3,
         falloff: DVec3,
         notes: Vec<String>,
@@ -102,6 +103,17 @@ pub enum Light {
         object: Box<Object>,
         radiance: DVec3,
     },
+}
+
+/// Where a spotlight shines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// The way its middle travels; not zero.
+    pub direction: DVec3,
+    /// From one edge to the other, in degrees, between 0 and 180.
+    pub angle: f64,
+    /// The share of the half-angle over which it fades at the edge.
+    pub blend: f64,
 }
 
 /// A material and what is to be said about it.

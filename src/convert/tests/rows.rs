@@ -254,7 +254,20 @@ fn lights() {
             "SphereLight { position 0 5 0 radius 1 color 3 3 3 }",
             "light sphere { center: (0, 5, 0), radius: 1, radiance: 3 }".into(),
         ),
-        ("SpotLight { position 0 5 0 direction 0 -1 0 maxAngle 30 color 1 1 1 }", "light point".into()),
+        (
+            "SpotLight { position 0 5 0 direction 0 -1 0 maxAngle 30 color 1 1 1 }",
+            "light spot { position: (0, 5, 0), direction: (0, -1, 0), angle: 60deg, blend: 0, intensity: 78.54 }"
+                .into(),
+        ),
+        (
+            "SpotLight { position 0 5 0 direction 0 -1 0 outerAngle 30 innerAngle 24 color 1 1 1 }",
+            "angle: 60deg, blend: 0.2".into(),
+        ),
+        (
+            "SpotLight { position 0 5 0 direction 0 -1 0 falloffAngle 50 hotspotAngle 40 color 1 1 1 }",
+            "angle: 50deg, blend: 0.2".into(),
+        ),
+        ("SpotLight { position 0 5 0 direction 0 -1 0 exponent 2 color 1 1 1 }", "angle: 131.0604deg, blend: 1".into()),
         (
             "PointLight { position 0 1 0 color 1 1 1 brightness 2 }",
             "light point { position: (0, 1, 0), intensity: 6.2832 }".into(),
