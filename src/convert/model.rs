@@ -144,9 +144,11 @@ pub enum Look {
         color: Texture,
         roughness: f64,
     },
+    /// GGX with alpha = roughness squared.
     Glass {
         ior: f64,
         tint: DVec3,
+        roughness: f64,
     },
     Emissive {
         radiance: DVec3,

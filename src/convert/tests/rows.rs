@@ -112,6 +112,10 @@ fn materials() {
             "MetalMaterial { attenuation 0.9 0.6 0.2 fuzz 0.25 }",
             "metal { color: rgb(0.9, 0.6, 0.2), roughness: 0.5 }",
         ),
+        (
+            "RoughDielectric { albedo 1 1 1 eta 1.33 roughness 0.25 }",
+            "glass { ior: 1.33, tint: 1, roughness: 0.5 }",
+        ),
         ("DielecMaterial { attenuation 1 1 1 refractive 1.5 }", "glass { ior: 1.5, tint: 1 }"),
         ("Metalic { albedo 1 1 1 roughness 0.25 }", "metal { color: 1, roughness: 0.5 }"),
         ("SpecularTransmission { albedo 1 1 1 eta 1.33 }", "glass { ior: 1.33, tint: 1 }"),

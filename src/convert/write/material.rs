@@ -23,7 +23,7 @@ pub fn material_value(look: &Look, names: &Glossary) -> Value {
             "metal",
             vec![texture_field("color", color), Entry::field("roughness", rounded(*roughness))],
         ),
-        Look::Glass { ior, tint } => glass(*ior, *tint),
+        Look::Glass { ior, tint, roughness } => glass(*ior, *tint, *roughness),
         Look::Emissive { radiance } => block("emissive", vec![Entry::field("radiance", color(*radiance))]),
         Look::Whitted { diffuse, specular, shininess, reflection, transmission, ior, fresnel } => {
             let mut fields = vec![texture_field("diffuse", diffuse)];
@@ -70,8 +70,11 @@ pub fn material_value(look: &Look, names: &Glossary) -> Value {
     }
 }
 
-fn glass(ior: f64, tint: DVec3) -> Value {
-    let fields = vec![Entry::field("ior", number(ior)), Entry::field("tint", color(tint))];
+fn glass(ior: f64, tint: DVec3, roughness: f64) -> Value {
+    let mut fields = vec![Entry::field("ior", number(ior)), Entry::field("tint", color(tint))];
+    if roughness > 0.0 {
+        fields.push(Entry::field("roughness", rounded(roughness)));
+    }
     Value::Block("glass ".into(), fields)
 }
 

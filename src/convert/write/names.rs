@@ -43,7 +43,8 @@ pub fn of_look(look: &Look, index: usize) -> String {
             Some("orange" | "yellow") => "gold_mirror".into(),
             Some(hue) => format!("{hue}_mirror"),
         },
-        Look::Glass { tint, .. } => match hue(*tint) {
+        Look::Glass { tint, roughness, .. } => match hue(*tint) {
+            None if tint.max_element() > 0.8 && *roughness > 0.0 => "frosted_glass".into(),
             None if tint.max_element() > 0.8 => "clear_glass".into(),
             None => format!("{}_glass", grey(tint.max_element())),
             Some(hue) => format!("{hue}_glass"),
@@ -149,7 +150,7 @@ mod tests {
     #[test]
     fn names_say_what_a_material_looks_like() {
         let name = |look| of_look(&look, 0);
-        let glass = |r, g, b| Look::Glass { ior: 1.5, tint: DVec3::new(r, g, b) };
+        let glass = |r, g, b| Look::Glass { ior: 1.5, tint: DVec3::new(r, g, b), roughness: 0.0 };
         assert_eq!(name(glass(0.93, 0.07, 0.04)), "red_glass");
         assert_eq!(name(glass(0.999, 0.999, 0.999)), "clear_glass");
         assert_eq!(name(Look::Emissive { radiance: DVec3::splat(12.0) }), "light_12");
