@@ -166,10 +166,10 @@ pub enum Look {
     },
     /// Lobes with their shares, which are above 0 and add up to 1.
     Mix(Vec<(f64, Look)>),
-    /// Two materials of the scene, by their indices, in solid cells of this size or evenly blended.
+    /// Two materials of the scene, by their indices, blended by a function of space; evenly without one.
     Solid {
         parts: [usize; 2],
-        cells: Option<f64>,
+        pattern: Option<Pattern>,
     },
     /// Stands in for a material that is not read.
     Placeholder,
@@ -201,16 +201,37 @@ impl Look {
     }
 }
 
-/// A colour, perhaps with a picture in its place.
+/// A function of space from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pattern {
+    /// Cells of this size.
+    Checker { size: f64 },
+    /// Clouds; the largest are as far apart as `size`.
+    Noise { size: f64, octaves: u32 },
+    /// Veins across x, this far apart and folded by this many of them.
+    Marble { size: f64, turbulence: f64 },
+    /// Rings around y, this wide and bent by this many of them.
+    Wood { size: f64, turbulence: f64 },
+}
+
+/// A colour, perhaps with a picture or a pattern in its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     pub color: DVec3,
     pub picture: Option<Asset>,
+    /// Two colours and what blends them, where there is no picture; `color` is their mean.
+    pub blend: Option<([DVec3; 2], Pattern)>,
 }
 
 impl Texture {
     pub fn plain(color: DVec3) -> Self {
-        Self { color, picture: None }
+        Self { color, picture: None, blend: None }
+    }
+
+    /// With all of its colours changed.
+    pub fn map(self, change: impl Fn(DVec3) -> DVec3) -> Self {
+        let blend = self.blend.map(|([a, b], pattern)| ([change(a), change(b)], pattern));
+        Self { color: change(self.color), blend, ..self }
     }
 }
 

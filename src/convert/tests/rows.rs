@@ -411,3 +411,32 @@ fn odds_and_ends_of_the_top_level() {
         "fov: 30deg",
     );
 }
+
+/// `sin(f x + a N)` has a vein every 2 pi / f, moved by a / 2 pi of that; a transform of the texture by 2 halves both.
+#[test]
+fn solid_textures_keep_the_lengths_of_their_waves() {
+    let rows = [
+        (
+            "Noise { Transform { UniformScale 2 } {} octaves 3 }",
+            "noise { a: 0, b: 1, size: 0.5, octaves: 3 }",
+        ),
+        (
+            "Marble { {} octaves 3 frequency 5 amplitude 2 }",
+            "marble { a: 0, b: 1, size: 1.2566371, turbulence: 0.31830987 }",
+        ),
+        (
+            "Wood { {} frequency 10 amplitude 2 }",
+            "wood { a: 0, b: 1, size: 0.62831855, turbulence: 0.31830987 }",
+        ),
+        ("Marble { {} frequency 0 }", "amount: 0.5"),
+    ];
+    for (solid, expected) in rows {
+        let solid = solid.replace("{} ", "materialIndex 0 materialIndex 1 ");
+        let camera = "OrthographicCamera { center 0 0 9 direction 0 0 -1 up 0 1 0 size 4 }";
+        let plain = "PhongMaterial { diffuseColor 1 0 0 } PhongMaterial { diffuseColor 0 0 1 }";
+        let scene = format!(
+            "{camera} Materials {{ {plain} {solid} }} Group {{ MaterialIndex 2 Sphere {{ center 0 0 0 radius 1 }} }}"
+        );
+        assert_said(&scene, expected);
+    }
+}

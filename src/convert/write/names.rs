@@ -1,6 +1,6 @@
 //! Names for materials and meshes, from what they look like and what their files are called.
 
-use crate::convert::model::{Look, Texture};
+use crate::convert::model::{Look, Pattern, Texture};
 use crate::math::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -58,8 +58,13 @@ pub fn of_look(look: &Look, index: usize) -> String {
                 lobes.iter().filter_map(|(_, lobe)| lobe.clone().textures().into_iter().next().cloned());
             surface("mixed", &colors.into_iter().next().unwrap_or(Texture::plain(DVec3::ONE)))
         }
-        Look::Solid { cells: Some(_), .. } => "chequered_blend".into(),
-        Look::Solid { cells: None, .. } => "even_blend".into(),
+        Look::Solid { pattern, .. } => match pattern {
+            Some(Pattern::Checker { .. }) => "chequered_blend".into(),
+            Some(Pattern::Noise { .. }) => "cloudy_blend".into(),
+            Some(Pattern::Marble { .. }) => "marble_blend".into(),
+            Some(Pattern::Wood { .. }) => "wood_blend".into(),
+            None => "even_blend".into(),
+        },
         Look::Placeholder => format!("unread_{index}"),
     }
 }

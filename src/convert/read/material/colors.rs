@@ -234,7 +234,7 @@ fn brightest(look: &Look) -> f64 {
 
 fn brightened(look: Look, factor: f64) -> Look {
     let factor = if factor.is_finite() { factor } else { 1.0 };
-    let times = |texture: Texture| Texture { color: (texture.color * factor).min(DVec3::ONE), ..texture };
+    let times = |texture: Texture| texture.map(|color| (color * factor).min(DVec3::ONE));
     match look {
         Look::Diffuse { color } => Look::Diffuse { color: times(color) },
         Look::Phong { diffuse, specular, shininess } => {
@@ -266,6 +266,6 @@ pub(super) fn fitted_phong(
     }
     let divisor = (most * 1e3).ceil() / 1e3; // so that rounding cannot bring the sum above 1
     notes.push(format!("Both colours are divided by {divisor}, lest more light leaves than arrives."));
-    let diffuse = Texture { color: diffuse.color / divisor, ..diffuse };
+    let diffuse = diffuse.map(|color| color / divisor);
     Look::Phong { diffuse, specular: specular / divisor, shininess }
 }
