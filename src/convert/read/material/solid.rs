@@ -64,7 +64,7 @@ impl Reader<'_> {
     ///
     /// Cells are as wide as 1 in the space that the transform leads to.
     pub(super) fn solid_look(&mut self, block: Block<'_>, solid: Solid, notes: &mut Vec<String>) -> Look {
-        let (name, head) = (block.name().to_string(), block.head.clone());
+        let (name, head, whole) = (block.name().to_string(), block.head.clone(), block.span.clone());
         let (mut indices, mut scale, mut waves) = (Vec::new(), 1.0, Waves::default());
         for part in self.log.parts(block.body, &SOLID) {
             match part {
@@ -75,6 +75,7 @@ impl Reader<'_> {
             }
         }
         let [first, second] = indices[..] else {
+            self.log.lose(&whole, "a grey placeholder stands in");
             self.log.approximated(&head, "a grey placeholder");
             self.log.notes.note(Mistake::MissingField {
                 block: name,
