@@ -196,7 +196,7 @@ impl Reader<'_> {
         };
         self.log.approximated(&head, format!("`{}` between its two colours", word(pattern)));
         if let Some(texture) = look.textures().into_iter().next() {
-            let room = texture.color.max_element().max(1e-6).min(1.0);
+            let room = texture.color.max_element().clamp(1e-6, 1.0);
             let plain = Texture::plain((*first + *second) * 0.5);
             *texture =
                 Texture { blend: Some(([*first, *second], pattern)), ..plain }.map(|color| color * room);
