@@ -111,7 +111,7 @@ fn disagreements(source: &Scene, snell: &str, path: &Path) -> (Vec<String>, usiz
             let hit = lowered.world.closest_hit(&ray);
             let found = hit.map(|hit| lowered.center + (ray.o + ray.d * hit.t).as_dvec3());
             hits += usize::from(expected.is_some());
-            if !agree(expected, found, origin, source.slack) {
+            if !agree(expected, found, origin) {
                 misses.push(format!("pixel {pixel:?}: {expected:?} in the source, {found:?} in the result"));
             }
         }
@@ -119,10 +119,10 @@ fn disagreements(source: &Scene, snell: &str, path: &Path) -> (Vec<String>, usiz
     (misses, hits)
 }
 
-fn agree(expected: Option<DVec3>, found: Option<DVec3>, origin: DVec3, slack: f64) -> bool {
+fn agree(expected: Option<DVec3>, found: Option<DVec3>, origin: DVec3) -> bool {
     match (expected, found) {
         (None, None) => true,
-        (Some(a), Some(b)) => a.distance(b) <= TOLERANCE * a.distance(origin) + slack,
+        (Some(a), Some(b)) => a.distance(b) <= TOLERANCE * a.distance(origin),
         // What is farther than single precision reaches may be there or not.
         (Some(far), None) | (None, Some(far)) => far.distance(origin) > 1e6,
     }

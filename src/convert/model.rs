@@ -29,13 +29,15 @@ pub struct Settings {
     pub samples: Option<u32>,
 }
 
-/// A pinhole camera, perhaps with a lens.
+/// A camera: a pinhole, a lens or parallel rays.
 #[derive(Debug)]
 pub struct Camera {
     pub center: DVec3,
     pub direction: DVec3,
     pub up: DVec3,
     pub angle: f64,
+    /// The height of what parallel rays see, of a camera that has those rather than an angle.
+    pub parallel: Option<f64>,
     /// Whether `angle` is the horizontal field of view rather than the vertical one.
     pub is_across: bool,
     /// The width of a pixel by its height.
@@ -71,9 +73,10 @@ pub struct Background {
 /// A light of the `Lights` block.
 #[derive(Debug)]
 pub enum Light {
-    /// The original adds `color / (a + b d + e d^2)` at distance d, for `falloff` (a, b, e).
+    /// The original adds `color / (a + b d + e d^2)` at distance d, for `falloff` (a, b, e); in a cone, if it has one.
     Point {
         position: DVec3,
+        cone: Option<Cone>,
         color: DVec3,
         falloff: DVec3,
         notes: Vec<String>,
@@ -100,6 +103,17 @@ pub enum Light {
         object: Box<Object>,
         radiance: DVec3,
     },
+}
+
+/// Where a spotlight shines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// The way its middle travels; not zero.
+    pub direction: DVec3,
+    /// From one edge to the other, in degrees, between 0 and 180.
+    pub angle: f64,
+    /// The share of the half-angle over which it fades at the edge.
+    pub blend: f64,
 }
 
 /// A material and what is to be said about it.
@@ -130,9 +144,11 @@ pub enum Look {
         color: Texture,
         roughness: f64,
     },
+    /// GGX with alpha = roughness squared.
     Glass {
         ior: f64,
         tint: DVec3,
+        roughness: f64,
     },
     Emissive {
         radiance: DVec3,
@@ -150,10 +166,10 @@ pub enum Look {
     },
     /// Lobes with their shares, which are above 0 and add up to 1.
     Mix(Vec<(f64, Look)>),
-    /// Two materials of the scene, by their indices, in solid cells of this size or evenly blended.
+    /// Two materials of the scene, by their indices, blended by a function of space; evenly without one.
     Solid {
         parts: [usize; 2],
-        cells: Option<f64>,
+        pattern: Option<Pattern>,
     },
     /// Stands in for a material that is not read.
     Placeholder,
@@ -185,16 +201,37 @@ impl Look {
     }
 }
 
-/// A colour, perhaps with a picture in its place.
+/// A function of space from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pattern {
+    /// Cells of this size.
+    Checker { size: f64 },
+    /// Clouds; the largest are as far apart as `size`.
+    Noise { size: f64, octaves: u32 },
+    /// Veins across x, this far apart and folded by this many of them.
+    Marble { size: f64, turbulence: f64 },
+    /// Rings around y, this wide and bent by this many of them.
+    Wood { size: f64, turbulence: f64 },
+}
+
+/// A colour, perhaps with a picture or a pattern in its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     pub color: DVec3,
     pub picture: Option<Asset>,
+    /// Two colours and what blends them, where there is no picture; `color` is their mean.
+    pub blend: Option<([DVec3; 2], Pattern)>,
 }
 
 impl Texture {
     pub fn plain(color: DVec3) -> Self {
-        Self { color, picture: None }
+        Self { color, picture: None, blend: None }
+    }
+
+    /// With all of its colours changed.
+    pub fn map(self, change: impl Fn(DVec3) -> DVec3) -> Self {
+        let blend = self.blend.map(|([a, b], pattern)| ([change(a), change(b)], pattern));
+        Self { color: change(self.color), blend, ..self }
     }
 }
 

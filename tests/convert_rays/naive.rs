@@ -39,8 +39,6 @@ enum Shape {
 /// A scene as a list of shapes and a camera.
 pub struct Scene {
     pub size: [u32; 2],
-    /// How far hits may be apart besides what precision leaves; for cameras that the result stands in for.
-    pub slack: f64,
     /// Whether any mesh has faces of more than three corners.
     pub has_polygons: bool,
     shapes: Vec<Placed>,
@@ -198,7 +196,6 @@ fn scene(file: &Node, path: &Path) -> Option<Scene> {
     }
     Some(Scene {
         size,
-        slack: if is_orthographic { 2e-3 * side } else { 0.0 },
         has_polygons: shapes.iter().any(|placed| matches!(placed.shape, Shape::Triangles(.., true))),
         shapes,
         center,

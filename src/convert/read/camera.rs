@@ -1,5 +1,6 @@
 //! Cameras.
 
+use super::lens_rules::KEYS;
 use super::{Basis, Dialect, Mistake, Reader};
 use crate::convert::Angle;
 use crate::convert::fields::{Field, Fields};
@@ -15,9 +16,9 @@ const LEAN_TOLERANCE: f64 = 1e-6;
 /// How far a pixel may be from square before that counts: angles are written with few digits.
 const SQUARE_TOLERANCE: f64 = 1e-3;
 
-/// How many times its own size an orthographic camera's stand-in is away: far enough to hide the perspective, near
+/// How many times its own size an orthographic camera is moved back: far enough to have most scenes in front, near
 /// enough to keep the digits of single precision.
-const FAR_AWAY: f64 = 1000.0;
+const STEP_BACK: f64 = 100.0;
 
 impl Reader<'_> {
     pub(super) fn camera(&mut self, block: Block<'_>) -> Option<Camera> {
@@ -44,17 +45,22 @@ impl Reader<'_> {
         let direction = self.direction(fields, center);
         let up = self.axis(fields, "up");
         let is_orthographic = name.contains("Orthographic") || (fields.has("size") && !fields.has("angle"));
-        let side = if is_orthographic { self.positive(fields, "size", "how much it sees") } else { None };
+        let side =
+            if is_orthographic { self.positive(fields, "size", "`height` of what it sees") } else { None };
         let angle = if is_orthographic { None } else { self.angle(fields) };
         let across = self.log.take(fields, "angle across");
         let size = self.picture_size(fields);
-        let lens = self.lens(name, fields, center, direction);
+        let lens = if is_orthographic { None } else { self.lens(name, fields, center, direction) };
+        if is_orthographic {
+            self.log.put_aside(fields, KEYS, "parallel rays are sharp at every distance");
+        }
         let (center, direction, (up, up_span)) = (center?, direction?, up?);
         let mut camera = Camera {
             center,
             direction,
             up,
             angle: 45.0,
+            parallel: side,
             is_across: false,
             pixel_aspect: 1.0,
             size,
@@ -220,18 +226,19 @@ impl Reader<'_> {
         self.log.notes.note(Mistake::UpNotPerpendicular { at: at.clone().into(), help });
     }
 
-    /// Stands in for an orthographic camera: a camera so far back that its rays are nearly parallel.
+    /// Moves an orthographic camera back, which changes nothing but what is in front of it.
     ///
-    /// The original sees what is behind its camera as well, and so does this one.
+    /// MIT's sees what is behind its place as well. What it sees is a square, whatever the sides of the picture.
     fn step_back(&mut self, camera: &mut Camera, side: f64, head: &Span) {
-        let distance = FAR_AWAY * side;
-        camera.center -= camera.direction.normalize() * distance;
-        camera.angle = 2.0 * libm::atan2(0.5 * side, distance).to_degrees();
+        camera.center -= camera.direction.normalize() * (STEP_BACK * side);
         camera.notes.push(format!(
-            "Stands in for an orthographic camera that sees a square of side {side}: so far back that its rays are \
-             nearly parallel."
+            "Moved back by {} along its parallel rays, for the original sees what is behind its place as well.",
+            STEP_BACK * side
         ));
-        self.log.approximated(head, "`camera`, from so far that its rays are nearly parallel");
-        self.note_not_read("an orthographic camera", head, "a camera from very far stands in");
+        self.log.mapped(head, "`camera` with an `orthographic` lens");
+        if self.dialect.is_mit() {
+            let (width, height) = camera.size.unwrap_or((1, 1));
+            camera.pixel_aspect = f64::from(height) / f64::from(width);
+        }
     }
 }

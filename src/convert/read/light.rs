@@ -1,6 +1,6 @@
 //! `Lights`: what kind each is, by its fields rather than by its name.
 
-use super::{Dialect, Mistake, Reader};
+use super::{Dialect, Mistake, Reader, spot};
 use crate::convert::fields::{Fields, Part};
 use crate::convert::model::Light;
 use crate::convert::parse::Block;
@@ -45,7 +45,7 @@ impl Kind {
             if has("radius") { Self::AxisDisk } else { Self::Rect }
         } else if has_edges || (faces && has_extent && has("position")) || name.contains("rect") {
             Self::Rect
-        } else if has("position") && faces && (has("spread") || name.contains("spot")) {
+        } else if has("position") && faces && (any(spot::SPREADS) || name.contains("spot")) {
             Self::Spot
         } else if is_round && faces {
             Self::Disk
@@ -206,14 +206,14 @@ impl Reader<'_> {
         if !is_usual {
             self.guess_block(name, "a point light", &fields.head.clone());
         }
-        Some(Light::Point { position: place, color, falloff, notes: Vec::new() })
+        Some(Light::Point { position: place, cone: None, color, falloff, notes: Vec::new() })
     }
 
     /// Coefficients a, b, e of `1 / (a + b d + e d^2)`.
     ///
     /// The course's own light does not fall off. MIT's of 2004 has all three as `attenuation`; that of 2010 is
     /// `1 / (1 + k d^2)`, and that of 2016 `1 / (k d^2)`, both with `falloff k`.
-    fn falloff(&mut self, fields: &mut Fields<'_>) -> DVec3 {
+    pub(super) fn falloff(&mut self, fields: &mut Fields<'_>) -> DVec3 {
         let attenuation = self.log.take(fields, "attenuation");
         let falloff = self.log.take(fields, "falloff");
         let law = match self.options.falloff {
@@ -279,19 +279,6 @@ impl Reader<'_> {
         let note = "Programs differ on which side such a light shines to; here it is both.";
         let (origin, edge_u, edge_v) = (quad.origin, quad.edge_u, quad.edge_v);
         Some(Light::Rect { origin, edge_u, edge_v, radiance, notes: vec![note.into()] })
-    }
-
-    /// A spotlight has no counterpart yet; a point light is as bright in its cone, and lights the rest as well.
-    fn spot_light(&mut self, fields: &mut Fields<'_>, color: DVec3) -> Option<Light> {
-        let head = fields.head.clone();
-        self.note_not_read("a spotlight", &head, "a point light stands in, which shines all around");
-        let cone = "a cone, which the point light that stands in does not have";
-        self.log.put_aside(fields, &["direction", "normal", "spread", "radius"], cone);
-        self.log.approximated(&head, "`light point`, which shines all around");
-        let position = self.log.need_vector(fields, "position", "`position`")?;
-        let falloff = self.falloff(fields);
-        let notes = vec!["Stands in for a spotlight; this one shines all around.".into()];
-        Some(Light::Point { position, color, falloff, notes })
     }
 }
 

@@ -18,6 +18,7 @@ mod quad;
 mod revolve;
 mod scene;
 mod shape;
+mod spot;
 mod transform;
 
 use super::asset::{AssetFinder, Search, picture_size};

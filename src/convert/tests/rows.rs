@@ -112,6 +112,10 @@ fn materials() {
             "MetalMaterial { attenuation 0.9 0.6 0.2 fuzz 0.25 }",
             "metal { color: rgb(0.9, 0.6, 0.2), roughness: 0.5 }",
         ),
+        (
+            "RoughDielectric { albedo 1 1 1 eta 1.33 roughness 0.25 }",
+            "glass { ior: 1.33, tint: 1, roughness: 0.5 }",
+        ),
         ("DielecMaterial { attenuation 1 1 1 refractive 1.5 }", "glass { ior: 1.5, tint: 1 }"),
         ("Metalic { albedo 1 1 1 roughness 0.25 }", "metal { color: 1, roughness: 0.5 }"),
         ("SpecularTransmission { albedo 1 1 1 eta 1.33 }", "glass { ior: 1.33, tint: 1 }"),
@@ -254,7 +258,20 @@ fn lights() {
             "SphereLight { position 0 5 0 radius 1 color 3 3 3 }",
             "light sphere { center: (0, 5, 0), radius: 1, radiance: 3 }".into(),
         ),
-        ("SpotLight { position 0 5 0 direction 0 -1 0 maxAngle 30 color 1 1 1 }", "light point".into()),
+        (
+            "SpotLight { position 0 5 0 direction 0 -1 0 maxAngle 30 color 1 1 1 }",
+            "light spot { position: (0, 5, 0), direction: (0, -1, 0), angle: 60deg, blend: 0, intensity: 78.54 }"
+                .into(),
+        ),
+        (
+            "SpotLight { position 0 5 0 direction 0 -1 0 outerAngle 30 innerAngle 24 color 1 1 1 }",
+            "angle: 60deg, blend: 0.2".into(),
+        ),
+        (
+            "SpotLight { position 0 5 0 direction 0 -1 0 falloffAngle 50 hotspotAngle 40 color 1 1 1 }",
+            "angle: 50deg, blend: 0.2".into(),
+        ),
+        ("SpotLight { position 0 5 0 direction 0 -1 0 exponent 2 color 1 1 1 }", "angle: 131.0604deg, blend: 1".into()),
         (
             "PointLight { position 0 1 0 color 1 1 1 brightness 2 }",
             "light point { position: (0, 1, 0), intensity: 6.2832 }".into(),
@@ -387,10 +404,39 @@ fn odds_and_ends_of_the_top_level() {
     );
     assert_said(
         "OrthographicCamera { center 0 0 9 direction 0 0 -1 up 0 1 0 size 4 }",
-        "position: (0, 0, 4009)",
+        "position: (0, 0, 409) direction: (0, 0, -1) lens: orthographic { height: 4 }",
     );
     assert_said(
         "PerspectiveCamera { position 0 0 9 lookAt 0 0 0 up 0 1 0 fov 30; width 8, height 8 }",
         "fov: 30deg",
     );
+}
+
+/// `sin(f x + a N)` has a vein every 2 pi / f, moved by a / 2 pi of that; a transform of the texture by 2 halves both.
+#[test]
+fn solid_textures_keep_the_lengths_of_their_waves() {
+    let rows = [
+        (
+            "Noise { Transform { UniformScale 2 } {} octaves 3 }",
+            "noise { a: 0, b: 1, size: 0.5, octaves: 3 }",
+        ),
+        (
+            "Marble { {} octaves 3 frequency 5 amplitude 2 }",
+            "marble { a: 0, b: 1, size: 1.2566371, turbulence: 0.31830987 }",
+        ),
+        (
+            "Wood { {} frequency 10 amplitude 2 }",
+            "wood { a: 0, b: 1, size: 0.62831855, turbulence: 0.31830987 }",
+        ),
+        ("Marble { {} frequency 0 }", "amount: 0.5"),
+    ];
+    for (solid, expected) in rows {
+        let solid = solid.replace("{} ", "materialIndex 0 materialIndex 1 ");
+        let camera = "OrthographicCamera { center 0 0 9 direction 0 0 -1 up 0 1 0 size 4 }";
+        let plain = "PhongMaterial { diffuseColor 1 0 0 } PhongMaterial { diffuseColor 0 0 1 }";
+        let scene = format!(
+            "{camera} Materials {{ {plain} {solid} }} Group {{ MaterialIndex 2 Sphere {{ center 0 0 0 radius 1 }} }}"
+        );
+        assert_said(&scene, expected);
+    }
 }

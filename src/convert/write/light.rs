@@ -3,9 +3,9 @@
 use super::glossary::Glossary;
 use super::layout::{Entry, Value};
 use super::material::material_value;
-use super::text::{color, number, point, rough, rough_color};
+use super::text::{color, number, point, rough, rough_color, rounded};
 use super::{middle, object};
-use crate::convert::model::{Light, Look, Scene};
+use crate::convert::model::{Cone, Light, Look, Scene};
 use crate::math::DVec3;
 use std::f64::consts::PI;
 
@@ -15,14 +15,14 @@ use std::f64::consts::PI;
 /// leaves it. So E = pi c, and for a point light at distance d an intensity of pi c d^2.
 pub fn entry(light: &Light, scene: &Scene, names: &Glossary) -> Entry {
     match light {
-        Light::Point { position, color, falloff, .. } if scene.is_classic => {
-            classic_point(*position, *color, *falloff)
+        Light::Point { position, cone, color, falloff, notes } if scene.is_classic => {
+            classic_point(*position, *cone, *color, *falloff).noted(notes)
         }
         Light::Directional { direction, color } if scene.is_classic => {
             classic_directional(*direction, *color)
         }
-        Light::Point { position, color, falloff, notes } => {
-            point_light(*position, *color, *falloff, scene).noted(notes)
+        Light::Point { position, cone, color, falloff, notes } => {
+            point_light(*position, *cone, *color, *falloff, scene).noted(notes)
         }
         Light::Sphere { center, radius, radiance } => {
             let parts = vec![
@@ -51,14 +51,27 @@ pub fn entry(light: &Light, scene: &Scene, names: &Glossary) -> Entry {
 }
 
 /// The original's light as it is, with its own law of fading.
-fn classic_point(position: DVec3, light: DVec3, falloff: DVec3) -> Entry {
-    let mut parts = vec![Entry::field("position", point(position)), Entry::field("intensity", color(light))];
+fn classic_point(position: DVec3, cone: Option<Cone>, light: DVec3, falloff: DVec3) -> Entry {
+    let (head, mut parts) = from_point(position, cone);
+    parts.push(Entry::field("intensity", color(light)));
     if falloff == DVec3::X {
         parts.push(Entry::field("falloff", "none"));
     } else if falloff != DVec3::Z {
         parts.push(Entry::field("falloff", point(falloff)));
     }
-    Entry::item(Value::Block("light point ".into(), parts))
+    Entry::item(Value::Block(head.into(), parts))
+}
+
+/// The head of a light at a point, and where it shines.
+fn from_point(position: DVec3, cone: Option<Cone>) -> (&'static str, Vec<Entry>) {
+    let mut parts = vec![Entry::field("position", point(position))];
+    let Some(Cone { direction, angle, blend }) = cone else { return ("light point ", parts) };
+    parts.extend([
+        Entry::field("direction", point(direction)),
+        Entry::field("angle", format!("{}deg", rounded(angle))),
+        Entry::field("blend", rounded(blend)),
+    ]);
+    ("light spot ", parts)
 }
 
 fn classic_directional(direction: DVec3, light: DVec3) -> Entry {
@@ -71,7 +84,7 @@ fn classic_directional(direction: DVec3, light: DVec3) -> Entry {
 }
 
 /// Intensity such that the light is as bright at the middle of the scene as the original's there.
-fn point_light(position: DVec3, light: DVec3, falloff: DVec3, scene: &Scene) -> Entry {
+fn point_light(position: DVec3, cone: Option<Cone>, light: DVec3, falloff: DVec3, scene: &Scene) -> Entry {
     let distance = match middle::of(&scene.objects).distance(position) {
         0.0 => 1.0,
         distance => distance,
@@ -101,11 +114,9 @@ fn point_light(position: DVec3, light: DVec3, falloff: DVec3, scene: &Scene) -> 
             rough(distance)
         )
     };
-    let parts = vec![
-        Entry::field("position", point(position)),
-        Entry::field("intensity", rough_color(light * (PI * factor))),
-    ];
-    Entry::item(Value::Block("light point ".into(), parts)).noted(&[note])
+    let (head, mut parts) = from_point(position, cone);
+    parts.push(Entry::field("intensity", rough_color(light * (PI * factor))));
+    Entry::item(Value::Block(head.into(), parts)).noted(&[note])
 }
 
 fn directional(direction: DVec3, light: DVec3) -> Entry {

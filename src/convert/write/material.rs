@@ -3,7 +3,7 @@
 use super::glossary::Glossary;
 use super::layout::{Entry, Value};
 use super::text::{color, number, rounded, string};
-use crate::convert::model::{Asset, Look, Texture};
+use crate::convert::model::{Asset, Look, Pattern, Texture};
 use crate::math::DVec3;
 
 pub fn material_value(look: &Look, names: &Glossary) -> Value {
@@ -23,7 +23,7 @@ pub fn material_value(look: &Look, names: &Glossary) -> Value {
             "metal",
             vec![texture_field("color", color), Entry::field("roughness", rounded(*roughness))],
         ),
-        Look::Glass { ior, tint } => glass(*ior, *tint),
+        Look::Glass { ior, tint, roughness } => glass(*ior, *tint, *roughness),
         Look::Emissive { radiance } => block("emissive", vec![Entry::field("radiance", color(*radiance))]),
         Look::Whitted { diffuse, specular, shininess, reflection, transmission, ior, fresnel } => {
             let mut fields = vec![texture_field("diffuse", diffuse)];
@@ -47,18 +47,8 @@ pub fn material_value(look: &Look, names: &Glossary) -> Value {
             block("whitted", fields)
         }
         Look::Mix(lobes) => mix(lobes, names),
-        Look::Solid { parts: [a, b], cells } => {
-            let amount: Value = match cells {
-                Some(size) => {
-                    let fields = vec![
-                        Entry::field("a", "0"),
-                        Entry::field("b", "1"),
-                        Entry::field("size", rounded(*size)),
-                    ];
-                    Value::Block("checker ".into(), fields)
-                }
-                None => "0.5".into(),
-            };
+        Look::Solid { parts: [a, b], pattern } => {
+            let amount = pattern.map_or("0.5".into(), |pattern| solid(&pattern, [DVec3::ZERO, DVec3::ONE]));
             let fields = vec![
                 Entry::field("a", names.material(*a)),
                 Entry::field("b", names.material(*b)),
@@ -70,8 +60,11 @@ pub fn material_value(look: &Look, names: &Glossary) -> Value {
     }
 }
 
-fn glass(ior: f64, tint: DVec3) -> Value {
-    let fields = vec![Entry::field("ior", number(ior)), Entry::field("tint", color(tint))];
+fn glass(ior: f64, tint: DVec3, roughness: f64) -> Value {
+    let mut fields = vec![Entry::field("ior", number(ior)), Entry::field("tint", color(tint))];
+    if roughness > 0.0 {
+        fields.push(Entry::field("roughness", rounded(roughness)));
+    }
     Value::Block("glass ".into(), fields)
 }
 
@@ -93,10 +86,25 @@ fn mix(lobes: &[(f64, Look)], names: &Glossary) -> Value {
 }
 
 fn texture_field(name: &str, texture: &Texture) -> Entry {
-    match &texture.picture {
-        Some(picture) => Entry::field(name, image(picture)),
-        None => Entry::field(name, color(texture.color)),
+    match (&texture.picture, &texture.blend) {
+        (Some(picture), _) => Entry::field(name, image(picture)),
+        (None, Some((colors, pattern))) => Entry::field(name, solid(pattern, *colors)),
+        (None, None) => Entry::field(name, color(texture.color)),
     }
+}
+
+/// A pattern between two colours.
+fn solid(pattern: &Pattern, [a, b]: [DVec3; 2]) -> Value {
+    let (head, size, own) = match pattern {
+        Pattern::Checker { size } => ("checker ", size, None),
+        Pattern::Noise { size, octaves } => ("noise ", size, Some(("octaves", octaves.to_string()))),
+        Pattern::Marble { size, turbulence } => ("marble ", size, Some(("turbulence", rounded(*turbulence)))),
+        Pattern::Wood { size, turbulence } => ("wood ", size, Some(("turbulence", rounded(*turbulence)))),
+    };
+    let mut fields =
+        vec![Entry::field("a", color(a)), Entry::field("b", color(b)), Entry::field("size", rounded(*size))];
+    fields.extend(own.map(|(name, value)| Entry::field(name, value)));
+    Value::Block(head.into(), fields)
 }
 
 /// A picture; one that is not beside the scene may be missing, which then is no mistake.

@@ -15,7 +15,7 @@ use super::model::{Background, Camera, Scene};
 use crate::math::DVec3;
 use layout::{Entry, Value, comment, paragraph};
 use std::collections::BTreeSet;
-use text::{color, point, rounded};
+use text::{color, number, point, rounded};
 
 /// The sides of a picture whose size the original learns on its command line; square, as its pictures are.
 const USUAL_SIZE: (u32, u32) = (500, 500);
@@ -81,8 +81,13 @@ fn camera_entry(camera: &Camera, dialect: Dialect) -> Entry {
     if camera.up != DVec3::Y {
         fields.push(Entry::field("up", point(camera.up)));
     }
-    let name = if camera.is_across { "fov_x" } else { "fov" };
-    fields.push(Entry::field(name, format!("{}deg", rounded(camera.angle))).noted(&camera.angle_notes));
+    if let Some(height) = camera.parallel {
+        let parts = vec![Entry::field("height", number(height))];
+        fields.push(Entry::field("lens", Value::Block("orthographic ".into(), parts)));
+    } else {
+        let name = if camera.is_across { "fov_x" } else { "fov" };
+        fields.push(Entry::field(name, format!("{}deg", rounded(camera.angle))).noted(&camera.angle_notes));
+    }
     if let Some(lens) = &camera.lens {
         let parts =
             vec![Entry::field("radius", rounded(lens.radius)), Entry::field("focus", rounded(lens.focus))];

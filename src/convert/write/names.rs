@@ -1,6 +1,6 @@
 //! Names for materials and meshes, from what they look like and what their files are called.
 
-use crate::convert::model::{Look, Texture};
+use crate::convert::model::{Look, Pattern, Texture};
 use crate::math::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -43,7 +43,8 @@ pub fn of_look(look: &Look, index: usize) -> String {
             Some("orange" | "yellow") => "gold_mirror".into(),
             Some(hue) => format!("{hue}_mirror"),
         },
-        Look::Glass { tint, .. } => match hue(*tint) {
+        Look::Glass { tint, roughness, .. } => match hue(*tint) {
+            None if tint.max_element() > 0.8 && *roughness > 0.0 => "frosted_glass".into(),
             None if tint.max_element() > 0.8 => "clear_glass".into(),
             None => format!("{}_glass", grey(tint.max_element())),
             Some(hue) => format!("{hue}_glass"),
@@ -57,8 +58,13 @@ pub fn of_look(look: &Look, index: usize) -> String {
                 lobes.iter().filter_map(|(_, lobe)| lobe.clone().textures().into_iter().next().cloned());
             surface("mixed", &colors.into_iter().next().unwrap_or(Texture::plain(DVec3::ONE)))
         }
-        Look::Solid { cells: Some(_), .. } => "chequered_blend".into(),
-        Look::Solid { cells: None, .. } => "even_blend".into(),
+        Look::Solid { pattern, .. } => match pattern {
+            Some(Pattern::Checker { .. }) => "chequered_blend".into(),
+            Some(Pattern::Noise { .. }) => "cloudy_blend".into(),
+            Some(Pattern::Marble { .. }) => "marble_blend".into(),
+            Some(Pattern::Wood { .. }) => "wood_blend".into(),
+            None => "even_blend".into(),
+        },
         Look::Placeholder => format!("unread_{index}"),
     }
 }
@@ -149,7 +155,7 @@ mod tests {
     #[test]
     fn names_say_what_a_material_looks_like() {
         let name = |look| of_look(&look, 0);
-        let glass = |r, g, b| Look::Glass { ior: 1.5, tint: DVec3::new(r, g, b) };
+        let glass = |r, g, b| Look::Glass { ior: 1.5, tint: DVec3::new(r, g, b), roughness: 0.0 };
         assert_eq!(name(glass(0.93, 0.07, 0.04)), "red_glass");
         assert_eq!(name(glass(0.999, 0.999, 0.999)), "clear_glass");
         assert_eq!(name(Look::Emissive { radiance: DVec3::splat(12.0) }), "light_12");

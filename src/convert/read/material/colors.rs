@@ -1,7 +1,7 @@
 //! Materials that say a colour for each thing a surface does to light.
 
 use super::lobes::mixed;
-use super::{USUAL_INDEX, clear};
+use super::{USUAL_INDEX, clear, frosted};
 use crate::convert::dialect::Dialect;
 use crate::convert::fields::{Field, Fields};
 use crate::convert::model::{Look, Texture};
@@ -32,7 +32,7 @@ impl Reader<'_> {
         let is_glass = index.is_some_and(|index| index > 0.0);
         let no_layers = mirror.is_none() && glass.is_none();
         if let Some(at) = says_index.filter(|_| no_layers && !dialect.is_mit() && dialect != Dialect::Implied)
-            && let Some(look) = self.look_of_index(fields, index, &at, notes)
+            && let Some(look) = self.look_of_index(fields, index, &at)
         {
             return look;
         }
@@ -67,23 +67,15 @@ impl Reader<'_> {
     }
 
     /// An index of refraction, and neither a share nor a colour of what it refracts: glass, tinted by the one colour.
-    fn look_of_index(
-        &mut self,
-        fields: &mut Fields<'_>,
-        index: Option<f64>,
-        at: &Span,
-        notes: &mut Vec<String>,
-    ) -> Option<Look> {
+    fn look_of_index(&mut self, fields: &mut Fields<'_>, index: Option<f64>, at: &Span) -> Option<Look> {
         let has_specular = self.peek_color(fields, "specular") != DVec3::ZERO;
         let index = index.filter(|index| *index > 1.0 && !has_specular)?;
         let color = self.one_color(fields);
-        if self.roughness(fields) > 0.0 {
-            notes.push("The original's glass is rough; this one is clear.".into());
-        }
+        let roughness = self.roughness(fields);
         let help =
             "it says how light bends and not how much of it does; if it is opaque, write `diffuse` instead";
         self.log.differs("a surface with an index of refraction was taken as glass", at, help);
-        Some(clear(index, color))
+        Some(frosted(index, color, roughness))
     }
 
     /// The terms of the original as they are: see [`Self::colored_look`].
@@ -242,7 +234,7 @@ fn brightest(look: &Look) -> f64 {
 
 fn brightened(look: Look, factor: f64) -> Look {
     let factor = if factor.is_finite() { factor } else { 1.0 };
-    let times = |texture: Texture| Texture { color: (texture.color * factor).min(DVec3::ONE), ..texture };
+    let times = |texture: Texture| texture.map(|color| (color * factor).min(DVec3::ONE));
     match look {
         Look::Diffuse { color } => Look::Diffuse { color: times(color) },
         Look::Phong { diffuse, specular, shininess } => {
@@ -274,6 +266,6 @@ pub(super) fn fitted_phong(
     }
     let divisor = (most * 1e3).ceil() / 1e3; // so that rounding cannot bring the sum above 1
     notes.push(format!("Both colours are divided by {divisor}, lest more light leaves than arrives."));
-    let diffuse = Texture { color: diffuse.color / divisor, ..diffuse };
+    let diffuse = diffuse.map(|color| color / divisor);
     Look::Phong { diffuse, specular: specular / divisor, shininess }
 }

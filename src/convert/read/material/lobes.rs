@@ -1,6 +1,6 @@
 //! Materials that name their lobes: by weights, by words and integers after `type`, by bare words, by shares.
 
-use super::{USUAL_INDEX, clear, shiny};
+use super::{USUAL_INDEX, frosted, shiny};
 use crate::convert::dialect::Dialect;
 use crate::convert::fields::{Field, Fields};
 use crate::convert::mistake::Mistake;
@@ -238,13 +238,7 @@ impl Reader<'_> {
     }
 
     /// What the lobes make together with the colours: one for all of them, or in some dialects one for each.
-    pub(super) fn lobed_look(
-        &mut self,
-        fields: &mut Fields<'_>,
-        lobes: Lobes,
-        dialect: Dialect,
-        notes: &mut Vec<String>,
-    ) -> Look {
+    pub(super) fn lobed_look(&mut self, fields: &mut Fields<'_>, lobes: Lobes, dialect: Dialect) -> Look {
         let color = self.one_color(fields);
         let index =
             self.index(fields, &["index", "refr", "refractRate", "refraction"]).unwrap_or(lobes.index);
@@ -263,9 +257,6 @@ impl Reader<'_> {
             false => color,
         };
         let roughness = if mirror > 0.0 || glass > 0.0 { self.roughness(fields) } else { 0.0 };
-        if glass > 0.0 && mirror == 0.0 && roughness > 0.0 {
-            notes.push("The original's glass is rough; this one is clear.".into());
-        }
         let unused = "the original's ray caster alone uses it";
         self.log.put_aside(
             fields,
@@ -276,7 +267,7 @@ impl Reader<'_> {
         let parts = [
             Look::Diffuse { color: Texture::plain(color) },
             shiny(hue_of(1, mirror_color), roughness),
-            clear(index, hue_of(2, glass_color)),
+            frosted(index, hue_of(2, glass_color), roughness),
         ];
         let weighted = lobes.weights.into_iter().zip(parts).map(|(weight, look)| (weight / sum, look));
         mixed(weighted.collect())

@@ -80,11 +80,11 @@ impl Reader<'_> {
         let look = if dialect == Dialect::Arsenal {
             self.arsenal_look(&mut fields, notes)
         } else if let Some(lobes) = self.lobes_of_fresnel(&mut fields) {
-            self.lobed_look(&mut fields, lobes, dialect, notes)
+            self.lobed_look(&mut fields, lobes, dialect)
         } else if has_factors {
             self.glossy_look(&mut fields, notes)
         } else if let Some(lobes) = self.lobes(&mut fields) {
-            self.lobed_look(&mut fields, lobes, dialect, notes)
+            self.lobed_look(&mut fields, lobes, dialect)
         } else {
             self.colored_look(&mut fields, dialect, notes)
         };
@@ -134,7 +134,7 @@ impl Reader<'_> {
         let look = match kind_number {
             1.0 => Look::Mirror { color: Texture::plain(color) },
             // The original's glass has one index, and Schlick's approximation with R0 = 0.04, that of 1.5.
-            2.0 => Look::Glass { ior: USUAL_INDEX, tint: color },
+            2.0 => clear(USUAL_INDEX, color),
             _ => Look::Diffuse { color: Texture::plain(color) },
         };
         match shininess {
@@ -242,5 +242,10 @@ fn shiny(color: DVec3, roughness: f64) -> Look {
 
 /// Glass; an index below 1 cannot be said.
 fn clear(index: f64, tint: DVec3) -> Look {
-    Look::Glass { ior: index.clamp(1.0, 1e3), tint }
+    frosted(index, tint, 0.0)
+}
+
+/// The same, frosted where it is rough.
+fn frosted(index: f64, tint: DVec3, roughness: f64) -> Look {
+    Look::Glass { ior: index.clamp(1.0, 1e3), tint, roughness }
 }

@@ -2,7 +2,7 @@
 
 use super::colors::{exponent_of, fitted_phong};
 use super::lobes::mixed;
-use super::{USUAL_INDEX, clear, shiny};
+use super::{USUAL_INDEX, frosted, shiny};
 use crate::convert::fields::{Field, Fields};
 use crate::convert::model::{Look, Texture};
 use crate::convert::parse::Block;
@@ -28,7 +28,8 @@ impl Reader<'_> {
             blocks::Material::Glass => {
                 let color = self.tint(&mut fields, &["color", "glass", "specular", "mirror"]);
                 let index = self.index(&mut fields, &["index", "refr", "refraction"]).unwrap_or(USUAL_INDEX);
-                clear(index, color)
+                let roughness = self.roughness(&mut fields);
+                frosted(index, color, roughness)
             }
             blocks::Material::Light => return self.lamp(fields, notes),
             blocks::Material::Glossy => self.glossy_look(&mut fields, notes),
