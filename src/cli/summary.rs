@@ -257,6 +257,15 @@ impl Summary<'_> {
             ),
             _ => String::new(),
         };
+        // Where a few specks are all of the error, what the rest of the picture is like comes first.
+        if e.firefly_share() >= MOSTLY_FIREFLIES {
+            return format!(
+                "{noise}{} but for the worst 0.1 % of pixels, which are fireflies; {} with them ({interval}){blur}\n          \
+                 half of it would take {half}{asked}",
+                percent(e.trimmed),
+                percent(e.error)
+            );
+        }
         format!(
             "{noise}{} ({interval}){fireflies}{blur}\n          half of it would take {half}{asked}",
             percent(e.error)
@@ -275,6 +284,8 @@ fn blur_text(blur: Option<f64>) -> String {
 
 /// The share of the squared error above which the worst 0.1 % of pixels are worth a word. Even noise gives them 1 %.
 const FIREFLIES: f64 = 0.1;
+/// The share above which the error is that of a few specks.
+const MOSTLY_FIREFLIES: f64 = 0.9;
 
 /// A count for people: `950`, `12,345`, `3.2 M`.
 fn count(n: u64) -> String {

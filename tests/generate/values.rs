@@ -98,6 +98,8 @@ impl Scene {
 
     /// A number near `example`.
     fn number(&mut self, ty: Type, example: &str, depth: usize) {
+        // A block is a whole value, never an operand.
+        let example = if example.contains('{') { ty.example() } else { example };
         let inner = depth - 1;
         let factor = *self.random().one(&["1", "2", "0.5", "1e0", "1_0", "150%", ".5"]);
         match self.random().below(12) {

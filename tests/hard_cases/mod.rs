@@ -7,3 +7,7 @@ mod a_triangles;
 mod b_solids;
 mod c_leaving;
 mod d_transforms;
+mod e_scattering;
+mod f_sampling;
+mod g_photons;
+mod h_film;

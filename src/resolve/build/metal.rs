@@ -161,7 +161,7 @@ mod tests {
         for (name, expected) in published {
             let (straight, edge) = measured(name).expect("measured");
             for channel in 0..3 {
-                assert!((straight[channel] - expected[channel]).abs() < 0.075, "{name}: {straight:?}");
+                assert!((straight[channel] - expected[channel]).abs() < 0.09, "{name}: {straight:?}");
                 assert!((0.6..=1.0).contains(&edge[channel]), "{name}: {edge:?}");
             }
         }
