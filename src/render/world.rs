@@ -112,15 +112,15 @@ impl World {
     pub fn bsdf_between(&self, surface: &SurfacePoint, wo: Vec3, media: &Media) -> Bsdf {
         let from_outside = wo.dot(surface.n) > 0.0;
         let (material, relief) = self.materials.face(surface.material, from_outside);
-        let bsdf = match relief {
-            None => self.materials.bsdf_of(material, surface),
-            Some(relief) => self.materials.bsdf_of(material, &self.bent(surface, relief, wo)),
-        };
+        let bent = relief.map(|relief| self.bent(surface, relief, wo));
+        // A bsdf is large: it is made once, and changed where it lies.
+        let mut bsdf = self.materials.bsdf_of(material, bent.as_ref().unwrap_or(surface));
         match media.boundary(surface.material, from_outside, &self.materials) {
-            Some(boundary) if boundary.hidden => bsdf.hidden(),
-            Some(boundary) => bsdf.with_ior(boundary.ior),
-            None => bsdf,
+            Some(boundary) if boundary.hidden => bsdf.hide(),
+            Some(boundary) => bsdf.set_ior(boundary.ior),
+            None => {}
         }
+        bsdf
     }
 
     /// The surface with its normal bent by a relief, for a viewer along `wo`.

@@ -3,6 +3,9 @@
 //! Each function does what its twin in [`super::kernel`] does, operation for operation, so the bits are the same:
 //! `min` and `max` of x86 return their second argument where one is NaN, as the comparisons there do, and no
 //! multiplication is fused with an addition.
+//!
+//! Everything called in a loop is written out: a closure handed to `map` is compiled without the vector features, and so
+//! cannot become part of the walk.
 
 #![allow(unsafe_code)]
 
@@ -49,8 +52,9 @@ impl Kernel for Avx2 {
         unsafe {
             let (mut entry, mut exit) = (_mm256_setzero_ps(), _mm256_set1_ps(t_max));
             for axis in 0..3 {
-                let [near, far] =
-                    ray.rows(axis).map(|row| _mm256_load_ps(node.faces.as_ptr().add(row).cast()));
+                let [near, far] = ray.rows(axis);
+                let near = _mm256_load_ps(node.faces.as_ptr().add(near).cast());
+                let far = _mm256_load_ps(node.faces.as_ptr().add(far).cast());
                 let (o, inverse) = (_mm256_set1_ps(ray.o[axis]), _mm256_set1_ps(ray.inverse[axis]));
                 entry = _mm256_max_ps(_mm256_mul_ps(_mm256_sub_ps(near, o), inverse), entry);
                 exit = _mm256_min_ps(_mm256_mul_ps(_mm256_sub_ps(far, o), inverse), exit);
@@ -67,7 +71,7 @@ impl Kernel for Avx2 {
     fn triangles(self, ray: &ShearedRay, block: &TriangleBlock) -> Option<(u32, Edges)> {
         // SAFETY: `self` proves that the processor has AVX2; what is called loads and stores within its arguments.
         unsafe {
-            let [a, b, c] = [0, 1, 2].map(|vertex| sheared(ray, block, vertex));
+            let (a, b, c) = (sheared(ray, block, 0), sheared(ray, block, 1), sheared(ray, block, 2));
             let u = _mm_sub_ps(_mm_mul_ps(c[0], b[1]), _mm_mul_ps(c[1], b[0]));
             let v = _mm_sub_ps(_mm_mul_ps(a[0], c[1]), _mm_mul_ps(a[1], c[0]));
             let w = _mm_sub_ps(_mm_mul_ps(b[0], a[1]), _mm_mul_ps(b[1], a[0]));
@@ -79,7 +83,7 @@ impl Kernel for Avx2 {
             if inside == 0 {
                 return None;
             }
-            let depth = [a[2], b[2], c[2]].map(stored);
+            let depth = [stored(a[2]), stored(b[2]), stored(c[2])];
             Some((inside as u32, Edges { u: stored(u), v: stored(v), w: stored(w), depth }))
         }
     }
@@ -104,10 +108,10 @@ unsafe fn sheared(ray: &ShearedRay, block: &TriangleBlock, vertex: usize) -> [__
     let rows = block.vertices[vertex].as_ptr();
     // SAFETY: axes are below 3, and rows of a block are aligned to 16 bytes as the block is.
     unsafe {
-        let [x, y, z] = [0, 1, 2].map(|i| {
-            let row = _mm_load_ps(rows.add(ray.axes()[i]).cast());
-            _mm_sub_ps(row, _mm_set1_ps(ray.o[i]))
-        });
+        let [x, y, z] = ray.axes();
+        let x = _mm_sub_ps(_mm_load_ps(rows.add(x).cast()), _mm_set1_ps(ray.o[0]));
+        let y = _mm_sub_ps(_mm_load_ps(rows.add(y).cast()), _mm_set1_ps(ray.o[1]));
+        let z = _mm_sub_ps(_mm_load_ps(rows.add(z).cast()), _mm_set1_ps(ray.o[2]));
         let x = _mm_sub_ps(x, _mm_mul_ps(_mm_set1_ps(ray.shear[0]), z));
         let y = _mm_sub_ps(y, _mm_mul_ps(_mm_set1_ps(ray.shear[1]), z));
         [x, y, z]

@@ -291,6 +291,7 @@ impl Materials {
     }
 
     /// The same for one of the materials that its own comes down to.
+    #[inline]
     pub fn bsdf_of(&self, id: MaterialId, surface: &SurfacePoint) -> Bsdf {
         let mut bsdf = Bsdf::new(surface);
         self.add_lobes(id, 1.0, surface, &mut bsdf);

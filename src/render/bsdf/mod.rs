@@ -188,9 +188,8 @@ impl Bsdf {
         part
     }
 
-    /// The same between other media: `ior` is the refractive index against the normal over that along it.
-    #[must_use]
-    pub fn with_ior(mut self, ior: f32) -> Self {
+    /// Puts it between other media: `ior` is the refractive index against the normal over that along it.
+    pub fn set_ior(&mut self, ior: f32) {
         for lobe in &mut self.lobes[..self.count] {
             match lobe {
                 Lobe::Dielectric { ior: own, .. } => *own = ior,
@@ -203,7 +202,6 @@ impl Bsdf {
                 _ => {}
             }
         }
-        self
     }
 
     /// Whether light may come through the surface.
@@ -216,16 +214,14 @@ impl Bsdf {
         self.frame.z
     }
 
-    /// The same where another solid fills the space on both sides: light passes as if nothing were there.
-    #[must_use]
-    pub fn hidden(self) -> Self {
-        let mut hidden = self.with_ior(1.0);
-        for lobe in &mut hidden.lobes[..hidden.count] {
+    /// Puts it where another solid fills the space on both sides: light passes as if nothing were there.
+    pub fn hide(&mut self) {
+        self.set_ior(1.0);
+        for lobe in &mut self.lobes[..self.count] {
             if let Lobe::Dielectric { tint, .. } = lobe {
                 *tint = Rgb::WHITE;
             }
         }
-        hidden
     }
 
     /// Whether any lobe scatters into more than one direction.

@@ -55,12 +55,18 @@ fn offset(p: Vec3, p_error: Vec3, n: Vec3, dir: Vec3) -> Vec3 {
     let side = if n.dot(dir) < 0.0 { -n } else { n };
     let shift = side * side.abs().dot(p_error);
     let moved = p + shift;
-    let outwards = |x: f32, by: f32| match by {
-        by if by > 0.0 => x.next_up(),
-        by if by < 0.0 => x.next_down(),
-        _ => x,
-    };
-    Vec3::new(outwards(moved.x, shift.x), outwards(moved.y, shift.y), outwards(moved.z, shift.z))
+    Vec3::new(beyond(moved.x, shift.x), beyond(moved.y, shift.y), beyond(moved.z, shift.z))
+}
+
+/// The next number after the finite `x` to the side that `by` points to; `x` itself where `by` is 0.
+///
+/// As [`f32::next_up`] and [`f32::next_down`], the sign of zero aside, but without a branch, which no processor could
+/// foresee. The bits of numbers of one sign are in order as integers; those of negative ones are turned about.
+#[inline]
+fn beyond(x: f32, by: f32) -> f32 {
+    let turned = |bits: i32| if bits < 0 { i32::MIN.wrapping_sub(bits) } else { bits };
+    let step = i32::from(by > 0.0) - i32::from(by < 0.0);
+    f32::from_bits(turned(turned(x.to_bits() as i32) + step) as u32)
 }
 
 /// The corners of a triangle in double precision.
@@ -155,4 +161,21 @@ fn texture_frame(mesh: &Mesh, triangle: [u32; 3], [p0, p1, p2]: Corners, b: Vec2
     let determinant = d1.perp_dot(d2);
     let along_u = ((p1 - p0) * d2.y - (p2 - p0) * d1.y) * determinant.signum();
     (uv, if determinant == 0.0 { DVec3::ZERO } else { along_u })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_number_beyond_is_the_next_one_on_that_side() {
+        let mut all =
+            vec![0.0, f32::from_bits(1), f32::MIN_POSITIVE, 1.0, 1.0 - f32::EPSILON, 3e38, f32::MAX];
+        all.extend((0..1_000_u32).map(|i| f32::from_bits(i.wrapping_mul(0x9e37_79b9) >> 1) % 1e9));
+        for x in all.into_iter().filter(|x| x.is_finite()).flat_map(|x| [x, -x]) {
+            assert_eq!(beyond(x, 0.1), x.next_up(), "above {x:e}");
+            assert_eq!(beyond(x, -0.1), x.next_down(), "below {x:e}");
+            assert_eq!(beyond(x, 0.0), x);
+        }
+    }
 }

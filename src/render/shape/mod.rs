@@ -45,6 +45,7 @@ pub struct Mesh {
 
 impl Mesh {
     /// The positions of the vertices of a triangle.
+    #[inline]
     pub fn corners(&self, triangle: [u32; 3]) -> [Vec3; 3] {
         triangle.map(|vertex| self.positions[vertex as usize])
     }

@@ -396,6 +396,7 @@ impl Cone {
 }
 
 /// The unit vector along `tangent` that is orthogonal to the unit normal `n`; any where there is none.
+#[inline]
 pub fn orthogonal_tangent(tangent: DVec3, n: Vec3) -> Vec3 {
     let n64 = n.as_dvec3();
     let along = tangent - n64 * n64.dot(tangent);

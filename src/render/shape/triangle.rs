@@ -198,6 +198,7 @@ impl TriangleBlock {
 /// `(b − a) × (c − a)`, from the two shorter edges in double precision, so that slivers keep their plane.
 ///
 /// Its length is twice the area; it points to the side from which the vertices run counter-clockwise.
+#[inline]
 pub fn cross_of_edges(corners: [Vec3; 3]) -> DVec3 {
     let [a, b, c] = corners.map(|corner| corner.as_dvec3());
     let (ab, bc, ca) = (b - a, c - b, a - c);
