@@ -44,29 +44,33 @@ fn walk_with<K: Kernel, const ANY: bool>(
     let tree = query.tree;
     let mut child = Some(Child::ROOT);
     while let Some(here) = child {
-        child = match here.kind() {
+        match here.kind() {
             // Down to what the ray enters first, leaving the rest on the stack.
             Kind::Node(node) => {
                 let node = &tree.nodes[node];
                 let (met, entry) = kernel.boxes(&boxes, node, nearest.t);
-                let prefetch = |child| prefetch(kernel, tree, child);
-                if met == 0 { None } else { Some(stack.enter::<ANY>(node, met, &entry, prefetch)) }
+                if met != 0 {
+                    child =
+                        Some(stack.enter::<ANY>(node, met, &entry, |child| prefetch(kernel, tree, child)));
+                    continue;
+                }
             }
             Kind::Blocks(blocks) => {
                 for block in &tree.blocks[blocks] {
                     offer_triangles(kernel, block, &sheared, query.first_prim, nearest);
                 }
-                None
+                if ANY && nearest.hit.is_some() {
+                    return;
+                }
             }
             Kind::Boxed(number) => {
                 (query.hit_boxed)(number, nearest);
-                None
+                if ANY && nearest.hit.is_some() {
+                    return;
+                }
             }
-        };
-        if ANY && nearest.hit.is_some() {
-            return;
         }
-        child = child.or_else(|| stack.pop(nearest.t));
+        child = stack.pop(nearest.t);
     }
 }
 
@@ -121,8 +125,12 @@ impl Stack<'_> {
         prefetch: impl Fn(Child),
     ) -> Child {
         let at = |lane: usize| Entry { t: entry[lane], child: node.children[lane] };
-        let mut first = at(met.trailing_zeros() as usize);
+        let lane = met.trailing_zeros() as usize;
         let mut rest = met & (met - 1);
+        if rest == 0 {
+            return node.children[lane]; // most often
+        }
+        let mut first = at(lane);
         let base = self.top;
         while rest != 0 {
             let mut pushed = at(rest.trailing_zeros() as usize);
