@@ -354,7 +354,7 @@ fn references_without_budget(triangles: &[[Vec3; 3]], low: Vec3, high: Vec3, dep
         + references_without_budget(&above, high_low, high, depth + 1)
 }
 
-/// Case 10: long random slivers, and many triangles around one vertex. References stay within 8·N + 1000, and the tree
+/// Case 10: long random slivers, and many triangles around one vertex. References stay within 2·N + 1000, and the tree
 /// still equals brute force; splitting space without a budget exceeds it.
 #[test]
 fn hard_case_10_references_stay_within_their_budget() {
