@@ -81,7 +81,7 @@ impl Media {
         // Whoever leaves what was never entered has been in it all along.
         let here = if !from_outside && beyond.count == self.count { Some((solid, own)) } else { here };
         let ior =
-            |filling: Option<(MaterialId, &Interior)>| filling.map_or(1.0, |(_, interior)| interior.ior);
+            |filling: Option<(MaterialId, &Interior)>| filling.map_or(1.0, |(_, interior)| self.ior(interior));
         let id = |filling: Option<(MaterialId, &Interior)>| filling.map(|(id, _)| id);
         let (inner, outer) = if from_outside { (there, here) } else { (here, there) };
         Some(Boundary {
@@ -98,6 +98,14 @@ impl Media {
         self.filling(materials).map_or(Rgb::WHITE, |(_, interior)| {
             interior.absorption.map(|sigma| if sigma > 0.0 { float::exp(-sigma * distance) } else { 1.0 })
         })
+    }
+
+    /// The refractive index of a solid for this path.
+    fn ior(&self, interior: &Interior) -> f32 {
+        match self.wavelength {
+            Some(wavelength) if interior.spread > 0.0 => wavelength.ior(interior.ior, interior.spread),
+            _ => interior.ior,
+        }
     }
 
     /// What fills the space: the solid of highest priority, of equals the one entered last.
@@ -125,6 +133,18 @@ mod tests {
             Material::Glass(Glass { absorption: Rgb::gray(absorption), priority, ..Glass::of_ior(ior) })
         };
         Materials::new(vec![glass(1.5, 0.0, 0), glass(1.25, 1.0, 0), glass(2.0, 0.0, 1)], Vec::new())
+    }
+
+    #[test]
+    fn glass_that_spreads_colours_bends_blue_more_than_red() {
+        let flint = Glass { spread: 0.017, ..Glass::of_ior(1.62) };
+        let materials = Materials::new(vec![Material::Glass(flint)], Vec::new());
+        let ior = |u| {
+            let media = Media { wavelength: Some(Wavelength::sample(u)), ..Media::NONE };
+            media.relative_ior(MaterialId(0), true, &materials).expect("it is glass")
+        };
+        let (blue, red) = (ior(0.0), ior(0.999));
+        assert!(red < 1.62 && 1.62 < blue && (0.02..0.06).contains(&(blue - red)), "{blue} {red}");
     }
 
     #[test]
