@@ -6,8 +6,10 @@
 mod stop;
 
 use super::camera::CameraRay;
+use super::effects::Effects;
 use super::film::{ErrorEstimate, Film, Region, Tile};
 use super::integrator::{Classic, ClassicSettings, Counters, Integrator, Pass, PathTracer, PhotonMapper};
+use super::ledger;
 use super::sampler::Dim;
 use super::world::World;
 use crate::math::{Rgb, Vec2};
@@ -196,7 +198,13 @@ fn run<I: Integrator>(
         let pass = Pass { index: film.passes(), seed: settings.seed };
 
         let prepare = Instant::now();
+        if world.is_watched {
+            ledger::photons(true);
+        }
         integrator.begin_pass(pass, &mut stats.counters, &|| monitor.cancelled());
+        if world.is_watched {
+            ledger::photons(false);
+        }
         stats.prepare_seconds += prepare.elapsed().as_secs_f64();
 
         let camera = Instant::now();
@@ -236,13 +244,21 @@ fn render_tiles<I: Integrator>(
 fn render_tile<I: Integrator>(integrator: &I, world: &World, region: Region, pass: Pass) -> (Tile, Counters) {
     let camera = &world.camera;
     let mut counters = Counters::default();
+    let blurs = world.effects.has(Effects::LENS_BLUR);
     let sample = |[x, y]: [u32; 2]| {
-        let sampler = pass.camera_sampler(u64::from(y) << 32 | u64::from(x));
-        let u_lens = if camera.has_lens() { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
+        let pixel = u64::from(y) << 32 | u64::from(x);
+        let sampler = pass.camera_sampler(pixel);
+        if world.is_watched {
+            ledger::begin_path();
+        }
+        let u_lens = if blurs { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
         let Some(CameraRay { ray, weight }) = camera.ray([x, y], sampler.get_2d(Dim::Filter), u_lens) else {
             return Rgb::BLACK;
         };
         let radiance = integrator.radiance(ray, &sampler, &mut counters);
+        if world.is_watched {
+            ledger::end_path(pixel, radiance);
+        }
         // What is no radiance stays none, whatever it weighs: the film counts it.
         if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
     };

@@ -1,6 +1,7 @@
 //! What a path is inside of.
 
 use super::bsdf::{Interior, MaterialId, Materials, Wavelength};
+use super::effects::Effects;
 use super::sampler::{Dim, Sampler};
 use crate::math::{Rgb, float};
 
@@ -35,10 +36,10 @@ impl Media {
     pub const NONE: Self =
         Self { stack: [MaterialId(0); Self::DEPTH], count: 0, wavelength: None, colored: false };
 
-    /// Free space at the start of a path, which draws its wavelength if glass calls for one.
+    /// Free space at the start of a path, which draws its wavelength if some glass disperses.
     pub fn start(materials: &Materials, sampler: &Sampler) -> Self {
         let draw = || Wavelength::sample(sampler.get_1d(Dim::Wavelength));
-        Self { wavelength: materials.disperses().then(draw), ..Self::NONE }
+        Self { wavelength: materials.effects().has(Effects::DISPERSION).then(draw), ..Self::NONE }
     }
 
     /// Goes through the surface of a solid, as [`Self::cross`]; the factor of the light that does.
@@ -80,8 +81,9 @@ impl Media {
         let (here, there) = (self.filling(materials), beyond.filling(materials));
         // Whoever leaves what was never entered has been in it all along.
         let here = if !from_outside && beyond.count == self.count { Some((solid, own)) } else { here };
-        let ior =
-            |filling: Option<(MaterialId, &Interior)>| filling.map_or(1.0, |(_, interior)| self.ior(interior));
+        let ior = |filling: Option<(MaterialId, &Interior)>| {
+            filling.map_or(1.0, |(_, interior)| self.ior(interior))
+        };
         let id = |filling: Option<(MaterialId, &Interior)>| filling.map(|(id, _)| id);
         let (inner, outer) = if from_outside { (there, here) } else { (here, there) };
         Some(Boundary {
@@ -92,7 +94,7 @@ impl Media {
 
     /// The share of light that is left after `distance` metres.
     pub fn transmittance(&self, distance: f32, materials: &Materials) -> Rgb {
-        if self.count == 0 {
+        if self.count == 0 || !materials.effects().has(Effects::ABSORPTION) {
             return Rgb::WHITE;
         }
         self.filling(materials).map_or(Rgb::WHITE, |(_, interior)| {
