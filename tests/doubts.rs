@@ -1,8 +1,11 @@
 //! Doubts about scenes are to the point: every planted one is found, and nothing else is said.
 //!
-//! A scene of `tests/doubts` is named after the one code that it gives, or `fine-..` when it gives none.
+//! A scene of `tests/doubts` is named after the one code that it gives, or `fine-..` when it gives none. Its first line may
+//! say what the command asks for: `// --method pt`.
 
 use snell::diag::{Problems, Report, Style};
+use snell::ir::Method;
+use snell::plan::Wish;
 use snell::source::{Disk, SourceMap};
 use snell::{load, plan};
 use std::path::{Path, PathBuf};
@@ -10,13 +13,23 @@ use std::path::{Path, PathBuf};
 /// Everything that is said of a scene before a ray is shot, files and method included.
 pub fn look(path: &Path) -> Report {
     let text = std::fs::read_to_string(path).expect("a scene of a test can be read");
+    let wish = text.lines().next().and_then(|line| line.strip_prefix("// --method ")).map_or(
+        Wish::Scene,
+        |method| match method {
+            "pt" => Wish::Method(Method::Pt),
+            "ppm" => Wish::Method(Method::Ppm),
+            "hybrid" => Wish::Method(Method::Hybrid),
+            "auto" => Wish::Auto,
+            other => panic!("no test asks for the method {other}"),
+        },
+    );
     let (mut sources, mut problems) = (SourceMap::default(), Problems::default());
     let main = sources.add(path.display().to_string(), path.to_path_buf(), text.into());
     let (files, main) = (Disk::new(path, Vec::new(), false), main.expect("a scene of a test is small"));
     if let Some(checked) = snell::compile(&mut sources, &files, main, &[], &mut problems) {
         let loaded = load::load(&checked, &sources, &files, &mut problems);
         if let Some(loaded) = loaded.filter(|_| !problems.has_errors()) {
-            let plan = plan::plan(&loaded, checked.cameras.first(), None);
+            let plan = plan::plan(&loaded, checked.cameras.first(), wish);
             plan::warn(&plan, &loaded, &mut problems);
         }
     }

@@ -50,7 +50,7 @@ fn report(phase: &str, path: &Path) -> Report {
 }
 
 /// Compares `said` with the file at `path`, or writes it there; what differs is added to `differences`.
-fn compare(path: &Path, said: &str, differences: &mut String) {
+pub fn compare(path: &Path, said: &str, differences: &mut String) {
     if std::env::var_os("UPDATE").is_some() {
         return std::fs::write(path, said).expect("an expectation can be written");
     }

@@ -6,6 +6,7 @@ mod command_line;
 mod convert_cli;
 mod convert_rays;
 mod doubts;
+mod effects;
 mod explain;
 mod first_run;
 mod format;

@@ -22,7 +22,7 @@ pub use error::CheckError;
 use miette::Diagnostic;
 use rustc_hash::FxHashSet;
 use space::NoMeshes;
-pub use space::{MeshPart, Meshes, OwnMaterial, survey};
+pub use space::{MeshPart, Meshes, OwnMaterial, Region, paths_miss, region, survey};
 use std::ops::Deref;
 
 /// A scene that was checked. Only [`check`] makes one; it makes sense when no error was noted.

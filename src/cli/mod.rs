@@ -3,6 +3,7 @@
 //! Standard output carries results only; diagnostics, progress and summaries go to standard error.
 
 mod args;
+mod by_line;
 mod check;
 mod compare;
 mod convert;
@@ -12,9 +13,12 @@ mod fmt;
 mod frames;
 mod interrupt;
 mod layers;
+mod lossy;
 mod messages;
 mod new;
+mod pilot;
 mod plan;
+mod plan_page;
 mod progress;
 mod render;
 mod sequence;

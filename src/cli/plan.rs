@@ -1,11 +1,14 @@
-//! `snell plan`: what a scene calls for, and why.
+//! `snell plan`: what a scene calls for and why, what it leaves alone, and what it will take.
 
-use super::args::{MessageArgs, SceneArgs};
+use super::args::{Format, MessageArgs, Method, SceneArgs, size};
+use super::by_line::ByLine;
+use super::pilot::Pilot;
+use super::plan_page::Page;
+use super::render::wish;
 use super::session::Session;
 use super::{Exit, fail, print};
-use crate::plan::{Effect, Plan};
-use clap::Args;
-use std::fmt::Write;
+use crate::plan::Wanted;
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 /// Arguments of `snell plan`.
@@ -17,10 +20,35 @@ pub struct PlanArgs {
     /// Look through this camera
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
+    /// How light is simulated [default: as the scene says]
+    #[arg(long, value_name = "METHOD")]
+    method: Option<Method>,
+    /// The size of the picture in pixels, such as `640x480`
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<(u32, u32)>,
+    /// As for `render`: `auto`, `all`, `+NAME`, `-NAME`, with commas between
+    #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = Wanted::parse, allow_hyphen_values = true)]
+    effects: Vec<Wanted>,
+    /// Render small pictures with and without each effect, and say what it adds to the time
+    #[arg(long)]
+    measure: bool,
+    /// With `--measure`: what each line costs, in time, rays and noise
+    #[arg(long, value_name = "WHAT", requires = "measure")]
+    by: Option<By>,
+    /// The form of the result
+    #[arg(long, value_name = "FORM", default_value = "human")]
+    format: Format,
     #[command(flatten)]
     scene_args: SceneArgs,
     #[command(flatten)]
     messages: MessageArgs,
+}
+
+/// What costs are sorted by.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+enum By {
+    /// Lines of the scene.
+    Line,
 }
 
 /// Prints the plan of a scene.
@@ -29,17 +57,7 @@ pub fn run(args: &PlanArgs) -> Exit {
         Ok(session) => session,
         Err(reason) => return fail(reason),
     };
-    let checked = session.compile();
-    let text = checked.as_ref().and_then(|checked| {
-        let camera = session.camera(checked, args.camera.as_deref());
-        let loaded = crate::load::load(checked, &session.sources, &session.files, &mut session.problems)?;
-        if session.problems.has_errors() {
-            return None; // what follows from a mistake is not worth a warning
-        }
-        let plan = crate::plan::plan(&loaded, camera, None);
-        crate::plan::warn(&plan, &loaded, &mut session.problems);
-        Some(table(&plan, &session))
-    });
+    let text = text(args, &mut session);
     let good = session.is_good();
     session.report_alone(&args.messages);
     match text {
@@ -51,23 +69,49 @@ pub fn run(args: &PlanArgs) -> Exit {
     }
 }
 
-fn table(plan: &Plan, session: &Session) -> String {
-    let mut out = String::new();
-    let method = match plan.method {
-        crate::ir::Method::Pt => "path tracing",
-        crate::ir::Method::Ppm => "progressive photon mapping",
-        crate::ir::Method::Hybrid => "path tracing with caustics from photons (hybrid)",
-        crate::ir::Method::Classic => "recursive ray tracing",
-    };
-    let _ = writeln!(out, "method: {method}, {}\n", plan.why);
-    for effect in Effect::ALL {
-        let used = plan.effects.iter().find(|used| used.effect == effect);
-        let why = used.map_or("not called for".to_owned(), |used| {
-            let place = session.sources.location(used.span).map_or(String::new(), |place| place.to_string());
-            let others = used.count - 1;
-            if others == 0 { place } else { format!("{place} and {others} more") }
-        });
-        let _ = writeln!(out, "{:<13} {why}", effect.name());
+fn text(args: &PlanArgs, session: &mut Session) -> Option<String> {
+    let checked = session.compile()?;
+    let mut camera = session.camera(&checked, args.camera.as_deref()).cloned();
+    if let (Some(camera), Some(size)) = (&mut camera, args.size) {
+        camera.film.size.value = size;
     }
-    out
+    let loaded = crate::load::load(&checked, &session.sources, &session.files, &mut session.problems)?;
+    if session.problems.has_errors() {
+        return None; // what follows from a mistake is not worth a warning
+    }
+    let mut plan = crate::plan::plan(&loaded, camera.as_ref(), wish(args.method));
+    let left_out = plan.want(&args.effects);
+    crate::plan::warn(&plan, &loaded, &mut session.problems);
+    let mut pilot = match &camera {
+        Some(camera) => Some(Pilot::new(&loaded, &plan, camera, session)?),
+        None => None,
+    };
+    let outlook = pilot.as_ref().map(Pilot::outlook);
+    let prices = match (&pilot, args.measure) {
+        (Some(pilot), true) => pilot.prices(&loaded, session),
+        _ => Vec::new(),
+    };
+    let all_on = pilot.as_ref().filter(|_| args.measure).and_then(|pilot| pilot.all_on(&loaded, session));
+    let by_line = match (&mut pilot, args.by) {
+        (Some(pilot), Some(By::Line)) => {
+            let books = pilot.books()?;
+            Some(ByLine::new(&books, pilot.spans(), loaded.scene, session))
+        }
+        _ => None,
+    };
+    let page = Page {
+        plan: &plan,
+        left_out: &left_out,
+        loaded: &loaded,
+        camera: camera.as_ref(),
+        outlook,
+        prices: &prices,
+        all_on,
+        by_line,
+        session,
+    };
+    Some(match args.format {
+        Format::Human => page.human(),
+        Format::Json => format!("{:#}\n", page.json()),
+    })
 }

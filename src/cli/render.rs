@@ -3,6 +3,8 @@
 use super::args::{self, MessageArgs, Method, SceneArgs};
 use super::frames::{self, Frames};
 use super::layers;
+use super::lossy::{self, Loss};
+use super::pilot::BYTES_PER_PIXEL;
 use super::progress::Bar;
 use super::sequence;
 use super::session::Session;
@@ -10,10 +12,9 @@ use super::summary::Summary;
 use super::{Exit, fail, interrupt, note};
 use crate::check::Checked;
 use crate::ir;
-use crate::load::Loaded;
 use crate::lower::Lowered;
 use crate::output::{Display, Exposure, Format, Frame, Target, Tone};
-use crate::plan::Plan;
+use crate::plan::{Plan, Wanted, Wish};
 use crate::render::film::Region;
 use crate::render::{Outcome, Settings, Stop, StoppedBy};
 use clap::Args;
@@ -68,6 +69,13 @@ pub struct RenderArgs {
     /// [default: albedo,normal,depth]
     #[arg(long, value_name = "LAYER", value_delimiter = ',')]
     layers: Vec<layers::Choice>,
+    /// Simulate these effects: `auto` for those that the scene calls for, `all`, `+NAME` for one more, `-NAME` for one
+    /// less; with commas between
+    #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = Wanted::parse, allow_hyphen_values = true)]
+    effects: Vec<Wanted>,
+    /// Leave out what `--effects` says though the scene calls for it; the picture says so
+    #[arg(long)]
+    lossy: bool,
     /// Write all that the closing words say, and more, as JSON
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
@@ -76,7 +84,7 @@ pub struct RenderArgs {
 }
 
 /// Passes of a scene that does not say when to stop.
-const DEFAULT_PASSES: u32 = 64;
+pub const DEFAULT_PASSES: u32 = 64;
 
 /// Renders a scene, or each frame of it.
 pub fn run(args: &RenderArgs) -> Exit {
@@ -122,6 +130,7 @@ impl Rendered {
             outcome: &self.outcome,
             settings: &self.ready.settings,
             scene_hash: &self.ready.scene_hash,
+            loss: self.ready.loss.as_ref(),
             compile_seconds: self.ready.compile_seconds,
             build_seconds: self.ready.build_seconds,
         }
@@ -189,6 +198,10 @@ struct Ready {
     inputs: Vec<PathBuf>,
     /// Whether display values lose their fraction.
     floor: bool,
+    /// Why effects cannot be left out as the command says.
+    refusal: Option<String>,
+    /// What is left out.
+    loss: Option<Loss>,
     compile_seconds: f64,
     build_seconds: f64,
 }
@@ -208,28 +221,47 @@ fn make_ready(
     if !session.is_good() {
         return None;
     }
-    let plan = crate::plan::plan(&loaded, Some(&camera), forced(args.method, &loaded, &camera));
+    let mut plan = crate::plan::plan(&loaded, Some(&camera), wish(args.method));
+    let left_out = plan.want(&args.effects);
+    let refusal = lossy::refusal(&left_out, &plan, &camera, args.lossy, &session.sources);
     crate::plan::warn(&plan, &loaded, &mut session.problems);
     let lowered = crate::lower::lower(&loaded, &plan, &camera, &session.files, &mut session.problems)?;
     let build_seconds = start.elapsed().as_secs_f64() - compiled;
     let settings =
         Settings { crop: crop_of(args, &camera), ..settings(args, &checked.render, &plan, &lowered) };
     let texts = session.sources.files().iter().map(|file| file.path.clone());
-    let inputs = texts.chain(loaded.files).collect();
+    let inputs = texts.chain(loaded.files.iter().cloned()).collect();
     let floor = plan.method == ir::Method::Classic && checked.render.classic.floor;
+    let loss = if refusal.is_some() || left_out.is_empty() {
+        None
+    } else {
+        Loss::measure(&left_out, &loaded, &plan, &camera, session)
+    };
     let (scene_hash, compile_seconds) = (session.fingerprint(), compiled);
-    Some(Ready { plan, lowered, camera, settings, scene_hash, inputs, floor, compile_seconds, build_seconds })
+    Some(Ready {
+        plan,
+        lowered,
+        camera,
+        settings,
+        scene_hash,
+        inputs,
+        floor,
+        refusal,
+        loss,
+        compile_seconds,
+        build_seconds,
+    })
 }
 
 /// The method that the command asks for.
-pub fn forced(method: Option<Method>, loaded: &Loaded<'_>, camera: &ir::Camera) -> Option<ir::Method> {
+pub fn wish(method: Option<Method>) -> Wish {
     match method {
-        None => None,
-        Some(Method::Pt) => Some(ir::Method::Pt),
-        Some(Method::Ppm) => Some(ir::Method::Ppm),
-        Some(Method::Hybrid) => Some(ir::Method::Hybrid),
-        Some(Method::Classic) => Some(ir::Method::Classic),
-        Some(Method::Auto) => Some(crate::plan::suited(loaded, Some(camera))),
+        None => Wish::Scene,
+        Some(Method::Auto) => Wish::Auto,
+        Some(Method::Pt) => Wish::Method(ir::Method::Pt),
+        Some(Method::Ppm) => Wish::Method(ir::Method::Ppm),
+        Some(Method::Hybrid) => Wish::Method(ir::Method::Hybrid),
+        Some(Method::Classic) => Wish::Method(ir::Method::Classic),
     }
 }
 
@@ -258,13 +290,13 @@ fn crop_of(args: &RenderArgs, camera: &ir::Camera) -> Option<Region> {
     args.crop.or_else(|| written.map(|[x, y, width, height]| Region { x, y, width, height }))
 }
 
-/// What the film and its copies take for a pixel, in bytes: eight streams of three sums, the mean, its error, the file.
-const BYTES_PER_PIXEL: u64 = 8 * 24 + 64;
-
 impl Ready {
     /// Why rendering would be in vain: an output that would replace an input, a crop outside the picture, or more memory
     /// than there is.
     fn reason_not_to_start(&self, args: &RenderArgs, targets: &[Target]) -> Result<(), String> {
+        if let Some(refusal) = &self.refusal {
+            return Err(refusal.clone());
+        }
         if let Some(path) = overwritten(args, targets, &self.inputs) {
             return Err(format!("the scene reads `{}`: write elsewhere with `-o`", path.display()));
         }

@@ -6,7 +6,7 @@ use crate::check::Checked;
 use crate::diag::{Problems, Report, Style};
 use crate::ir::Camera;
 use crate::resolve::{Limits, Offer};
-use crate::source::{Disk, Files, Missing, SourceMap};
+use crate::source::{Disk, Files, Missing, SourceMap, Span};
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 use terminal_size::{Height, Width, terminal_size_of};
@@ -127,6 +127,12 @@ impl Session {
     /// The camera that the scene is seen through: the one asked for, or the first.
     pub fn camera<'a>(&mut self, scene: &'a Checked, wanted: Option<&str>) -> Option<&'a Camera> {
         crate::check::camera(scene, wanted, self.sources.file(self.main).span(), &mut self.problems)
+    }
+
+    /// Where a span begins, as `FILE:LINE`.
+    pub fn line(&self, span: Span) -> String {
+        let place = self.sources.location(span);
+        place.map_or(String::new(), |place| format!("{}:{}", place.file, place.line))
     }
 
     /// Whether nothing noted so far forbids going on.

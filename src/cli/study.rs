@@ -2,7 +2,7 @@
 
 use super::args::{self, MessageArgs, Method, SceneArgs};
 use super::progress::{duration, percent};
-use super::render::{display, forced};
+use super::render::{display, wish};
 use super::session::{self, Fingerprint, Session};
 use super::sweep::{self, Sweep, Variant};
 use super::{Exit, fail, interrupt, note, print};
@@ -212,7 +212,7 @@ fn make_ready(
     camera: &ir::Camera,
     session: &mut Session,
 ) -> Option<Ready> {
-    let mut plan = crate::plan::plan(loaded, Some(camera), forced(method, loaded, camera));
+    let mut plan = crate::plan::plan(loaded, Some(camera), wish(method));
     variant.apply(&mut plan);
     let name = variant.name(plan.method);
     let lowered = crate::lower::lower(loaded, &plan, camera, &session.files, &mut session.problems)?;

@@ -1,5 +1,6 @@
 //! What a render says at its end: for people, and as JSON.
 
+use super::lossy::Loss;
 use super::progress::{duration, percent};
 use crate::plan::Plan;
 use crate::render::{GatherRadius, Method, Outcome, Settings, Stop, StoppedBy};
@@ -24,6 +25,8 @@ pub struct Summary<'a> {
     pub settings: &'a Settings,
     /// What the scene's texts and parameters amount to, as hexadecimal digits.
     pub scene_hash: &'a str,
+    /// What the picture lacks.
+    pub loss: Option<&'a Loss>,
     /// Seconds for meshes, pictures and trees.
     pub build_seconds: f64,
 }
@@ -55,6 +58,10 @@ impl Summary<'_> {
             writeln!(out)
         };
         let _ = writeln!(out, "  error   {}", self.error_text());
+        if let Some(loss) = self.loss {
+            let (names, share) = (loss.effects.join(", "), 100.0 * loss.energy);
+            let _ = writeln!(out, "  lossy   without {names}: about {share:.1} % of the light is missing");
+        }
         if stats.bad_samples > 0 {
             let places = self.outcome.film.bad_samples().iter();
             let places: Vec<String> = places
@@ -95,6 +102,8 @@ impl Summary<'_> {
             "settings": self.settings_json(),
             "why": self.plan.why,
             "effects": self.plan.effects.iter().map(|used| used.effect.name()).collect::<Vec<_>>(),
+            "simulated": self.plan.simulated.iter().map(|effect| effect.name()).collect::<Vec<_>>(),
+            "left_out": self.loss.map(|loss| json!({ "effects": loss.effects, "energy": loss.energy })),
             "passes": stats.passes,
             "stopped_by": match self.outcome.stopped_by {
                 StoppedBy::Passes => "passes",
@@ -154,7 +163,7 @@ impl Summary<'_> {
     /// Facts for files that can hold them: enough to make the same picture again.
     pub fn facts(&self) -> Vec<(String, String)> {
         let stats = &self.outcome.stats;
-        let facts = [
+        let mut facts = vec![
             ("scene", self.scene.to_owned()),
             ("scene_hash", self.scene_hash.to_owned()),
             ("method", self.method_name().to_owned()),
@@ -162,7 +171,11 @@ impl Summary<'_> {
             ("seed", self.settings.seed.to_string()),
             ("settings", self.settings_json().to_string()),
         ];
-        facts.map(|(name, value)| (name.to_owned(), value)).to_vec()
+        if let Some(loss) = self.loss {
+            facts.push(("left_out", loss.effects.join(" ")));
+            facts.push(("left_out_energy", format!("{:.4}", loss.energy)));
+        }
+        facts.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
     fn method_name(&self) -> &'static str {

@@ -10,7 +10,7 @@ use crate::diag::Problems;
 use crate::ir::light::EnvironmentRadiance;
 use crate::ir::material::Input;
 use crate::ir::{Handle, Heights, Lens, Material, Scene, ShapeKind, Texture, TextureKind};
-use crate::source::{Files, SourceMap, Span};
+use crate::source::{Files, SourceMap, Span, Spanned};
 pub use error::LoadError;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::path::{Path, PathBuf};
@@ -55,6 +55,15 @@ impl Loaded<'_> {
     /// The mesh of a shape; `None` when it was left out.
     pub fn mesh(&self, shape: Handle<crate::ir::Shape>) -> Option<&Arc<LoadedMesh>> {
         self.meshes.get(&shape.index())
+    }
+
+    /// The pictures that the scene names and nothing in it shows: they were not opened.
+    pub fn unread(&self) -> impl Iterator<Item = &Spanned<String>> {
+        let textures = self.scene.textures.iter().enumerate();
+        textures.filter_map(|(index, texture)| match &texture.kind {
+            TextureKind::Image(image) if !self.pictures.contains_key(&index) => Some(&image.file),
+            _ => None,
+        })
     }
 
     /// The picture of a texture; `None` when it was left out.

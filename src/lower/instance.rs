@@ -5,12 +5,10 @@ use super::{Lowering, object};
 use crate::ir::{Object, Shape, ShapeKind};
 use crate::load::{Loaded, LoadedMesh};
 use crate::math::{DAffine3, DVec3};
+use crate::plan::LEAST_SHARED;
 use crate::render::shape::{Instance, MaterialId, Mesh, SourceId};
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
-
-/// Below this many triangles a copy is cheaper for rays than a tree of its own, and small anyway.
-const MIN_TRIANGLES: usize = 1000;
 
 /// A mesh as shapes place it: the file, the scale's bits, and how its normals are made.
 type Key = (usize, u64, Option<bool>);
@@ -52,7 +50,7 @@ impl Lowering<'_> {
         // A transform that flattens has no inverse to take a ray through.
         let inverse = object.world_from_object.inverse();
         count >= 2
-            && mesh.model.parts[part].triangles.len() >= MIN_TRIANGLES
+            && mesh.model.parts[part].triangles.len() >= LEAST_SHARED
             && inverse.is_finite()
             && object.world_from_object.matrix3.determinant() != 0.0
     }
@@ -85,10 +83,11 @@ impl Lowering<'_> {
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(*p), high.max(*p)));
         let middle = (low + high) / 2.0;
         let positions: Vec<_> = triangles.positions.iter().map(|&p| (p - middle).as_vec3()).collect();
+        let normals = triangles.normals.as_ref().filter(|_| self.is_smooth);
         self.shapes.shared.push(Mesh {
             triangles: object::solid_triangles(&positions, &triangles.indices),
             positions,
-            normals: triangles.normals.as_ref().map(|all| all.iter().map(|n| n.as_vec3()).collect()),
+            normals: normals.map(|all| all.iter().map(|n| n.as_vec3()).collect()),
             uvs: triangles.uvs.clone(),
             material: MaterialId(0),
             object_from_world: DAffine3::from_translation(middle),

@@ -6,6 +6,7 @@
 mod camera;
 pub mod curve;
 mod daylight;
+mod effects;
 mod error;
 mod heightfield;
 mod instance;
@@ -21,7 +22,7 @@ use crate::diag::Problems;
 use crate::ir;
 use crate::load::Loaded;
 use crate::math::DVec3;
-use crate::plan::Plan;
+use crate::plan::{Effect, Plan};
 use crate::render::camera::Camera;
 use crate::render::geometry::Shapes;
 use crate::render::integrator::{ClassicSettings, Shading};
@@ -29,6 +30,7 @@ use crate::render::shape::SourceId;
 use crate::render::world::{Parts, World};
 use crate::render::{GatherRadius, HybridSettings, Method, PpmSettings};
 use crate::source::{Files, Span};
+pub use effects::can_leave_out;
 pub use error::LowerError;
 use instance::Instances;
 use material::Materials;
@@ -66,6 +68,7 @@ pub fn lower(
         shapes: Shapes::default(),
         instances: Instances::count(loaded),
         sources: Vec::new(),
+        is_smooth: plan.simulates(Effect::SmoothNormals),
     };
     for object in &loaded.scene.objects {
         lowering.object(object);
@@ -73,11 +76,13 @@ pub fn lower(
     let lights = loaded.scene.lights.iter().filter_map(|light| lowering.light(light)).collect();
     let environment = loaded.scene.environment.as_ref().and_then(|e| lowering.materials.environment(e));
     let environment = environment.or_else(|| loaded.scene.lights.iter().find_map(light::sky));
+    let environment = effects::surroundings(plan, environment);
     let pixel = match plan.method {
         ir::Method::Classic => loaded.scene.render.classic.pixel,
         _ => ir::PixelPoint::Filter,
     };
-    let camera = camera::camera(camera, pixel, loaded, center).map_err(|error| problems.push(error)).ok();
+    let mut camera = camera::camera(camera, pixel, loaded, center).map_err(|error| problems.push(error)).ok();
+    camera.iter_mut().for_each(|camera| effects::close_lens(plan, camera));
 
     let Lowering { materials, shapes, sources, .. } = lowering;
     let Shapes { meshes, shared, instances, solids } = shapes;
@@ -97,12 +102,16 @@ pub fn lower(
         lights,
         environment,
         camera,
+        effects: effects::effects(plan),
     });
     Some(Lowered { world, method, sources, center })
 }
 
 fn method(plan: &Plan, classic: &ir::Classic, camera: &camera::Seen) -> Method {
     match plan.method {
+        ir::Method::Pt | ir::Method::Hybrid if effects::drops_caustics(plan) => {
+            Method::Hybrid(HybridSettings { photon_count: 0, ..hybrid(plan) })
+        }
         ir::Method::Pt => Method::Pt,
         ir::Method::Classic => Method::Classic(ClassicSettings {
             shading: if classic.blinn { Shading::Blinn } else { Shading::Phong },
@@ -110,20 +119,23 @@ fn method(plan: &Plan, classic: &ir::Classic, camera: &camera::Seen) -> Method {
             ambient: classic.ambient,
             lit_backs: classic.lit_backs,
         }),
-        ir::Method::Hybrid => Method::Hybrid(HybridSettings {
-            photon_count: plan.photon_count,
-            k: plan.photon_k,
-            radius: plan.photon_radius.map_or(GatherRadius::Pixels(CAUSTIC_PIXELS_PER_RADIUS), |radius| {
-                GatherRadius::Meters(radius as f32)
-            }),
-            shrink: plan.photon_shrink,
-        }),
+        ir::Method::Hybrid => Method::Hybrid(hybrid(plan)),
         ir::Method::Ppm => Method::Ppm(PpmSettings {
             photon_count: plan.photon_count,
             k: plan.photon_k,
             radius: plan.photon_radius.unwrap_or(camera.pixel_footprint * PIXELS_PER_RADIUS) as f32,
             shrink: plan.photon_shrink,
         }),
+    }
+}
+
+fn hybrid(plan: &Plan) -> HybridSettings {
+    let radius = plan.photon_radius.map(|radius| GatherRadius::Meters(radius as f32));
+    HybridSettings {
+        photon_count: plan.photon_count,
+        k: plan.photon_k,
+        radius: radius.unwrap_or(GatherRadius::Pixels(CAUSTIC_PIXELS_PER_RADIUS)),
+        shrink: plan.photon_shrink,
     }
 }
 
@@ -141,6 +153,8 @@ struct Lowering<'a> {
     shapes: Shapes,
     instances: Instances,
     sources: Vec<Span>,
+    /// Whether triangles keep the normals of their vertices.
+    is_smooth: bool,
 }
 
 impl Lowering<'_> {

@@ -204,7 +204,8 @@ impl Lowering<'_> {
         if triangles.is_empty() {
             return;
         }
-        let normals = shape.normals.as_ref().map(|normals| world_normals(normals, &to_world.matrix3));
+        let normals = shape.normals.as_ref().filter(|_| self.is_smooth);
+        let normals = normals.map(|normals| world_normals(normals, &to_world.matrix3));
         let object_from_world = to_world.inverse();
         let uvs = shape.uvs.clone();
         self.shapes.meshes.push(Mesh {

@@ -1,84 +1,18 @@
 //! The effects that a scene calls for, each with the places that call for it.
+//!
+//! What a scene does not place calls for nothing. In doubt an effect is called for: to leave one out may change no bit.
 
+use super::absent;
+use super::caustics::{self, Caster};
+use super::effect::Effect;
+use crate::check::{Region, region};
 use crate::ir::light::{EnvironmentRadiance, LightKind};
 use crate::ir::material::{Input, MaterialKind, Projection, TextureKind};
-use crate::ir::{self, Camera, Handle, Lens, Material, Object, Scene, Shape, ShapeKind, Texture};
-use crate::load::Loaded;
+use crate::ir::{Camera, Handle, Lens, Material, Object, RevolveMethod, Scene, Shape, ShapeKind, Texture};
+use crate::load::{Loaded, LoadedMesh};
 use crate::source::Span;
-use rustc_hash::FxHashSet;
-
-/// Something that a picture may need simulated.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum Effect {
-    /// A lens opening: depth of field.
-    LensBlur,
-    /// Lights with a size.
-    SoftShadows,
-    /// Colours looked up at points.
-    Textures,
-    /// Perfect mirrors and glass.
-    Specular,
-    /// Light that goes through.
-    Dielectrics,
-    /// Highlights with a width.
-    Glossy,
-    /// Glass that colours light on its way.
-    Absorption,
-    /// Light that reaches a matt surface by way of a mirror or through glass.
-    Caustics,
-    /// Light that bounces between surfaces.
-    Indirect,
-    /// Light from everywhere.
-    Environment,
-    /// Emissive objects.
-    MeshLights,
-    /// Normals bent by pictures.
-    NormalMaps,
-    /// Surfaces with holes.
-    Alpha,
-    /// Glass that bends each wavelength in its own way.
-    Dispersion,
-}
-
-impl Effect {
-    /// All of them, in the order in which they are listed.
-    pub const ALL: [Self; 14] = [
-        Self::LensBlur,
-        Self::SoftShadows,
-        Self::Textures,
-        Self::Specular,
-        Self::Dielectrics,
-        Self::Glossy,
-        Self::Absorption,
-        Self::Caustics,
-        Self::Indirect,
-        Self::Environment,
-        Self::MeshLights,
-        Self::NormalMaps,
-        Self::Alpha,
-        Self::Dispersion,
-    ];
-
-    /// The name by which people know it.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::LensBlur => "lens_blur",
-            Self::SoftShadows => "soft_shadows",
-            Self::Textures => "textures",
-            Self::Specular => "specular",
-            Self::Dielectrics => "dielectrics",
-            Self::Glossy => "glossy",
-            Self::Absorption => "absorption",
-            Self::Caustics => "caustics",
-            Self::Indirect => "indirect",
-            Self::Environment => "environment",
-            Self::MeshLights => "mesh_lights",
-            Self::NormalMaps => "normal_maps",
-            Self::Alpha => "alpha",
-            Self::Dispersion => "dispersion",
-        }
-    }
-}
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
 
 /// An effect with its users.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -91,14 +25,26 @@ pub struct EffectUse {
     pub count: usize,
 }
 
-/// The effects of a scene, in the order of [`Effect::ALL`].
-pub fn effects(loaded: &Loaded<'_>, camera: Option<&Camera>) -> Vec<EffectUse> {
+/// What the scene says about every effect.
+pub struct Survey {
+    /// Those called for, in the order of [`Effect::ALL`].
+    pub uses: Vec<EffectUse>,
+    /// Those, and what may be there though nobody would look for it.
+    pub in_doubt: Vec<Effect>,
+    /// The others, each with the reason.
+    pub absent: Vec<(Effect, String)>,
+}
+
+/// Looks for every effect in a scene seen by `camera`.
+pub fn survey(loaded: &Loaded<'_>, camera: Option<&Camera>) -> Survey {
     let mut found = Found {
         loaded,
         scene: loaded.scene,
         uses: Vec::new(),
         seen: FxHashSet::default(),
+        placed: FxHashMap::default(),
         casters: Vec::new(),
+        may_throw: false,
     };
     if let Some(camera) = camera {
         found.camera(camera);
@@ -107,9 +53,21 @@ pub fn effects(loaded: &Loaded<'_>, camera: Option<&Camera>) -> Vec<EffectUse> {
         found.object(object);
     }
     found.lights();
-    found.caustics();
+    let no_caustics = found.caustics();
     found.uses.sort_by_key(|used| used.effect);
-    found.uses
+    let is_used = |effect: &Effect| found.of(*effect).is_some();
+    let mut in_doubt: Vec<Effect> = Effect::ALL.into_iter().filter(is_used).collect();
+    if found.may_throw && !in_doubt.contains(&Effect::Caustics) {
+        in_doubt.push(Effect::Caustics);
+    }
+    let absent = Effect::ALL.into_iter().filter(|effect| !is_used(effect)).map(|effect| {
+        let why = match (effect, no_caustics) {
+            (Effect::Caustics, Some(why)) => why.to_owned(),
+            _ => absent::why(effect, loaded.scene, camera),
+        };
+        (effect, why)
+    });
+    Survey { absent: absent.collect(), uses: found.uses, in_doubt }
 }
 
 struct Found<'a> {
@@ -117,9 +75,16 @@ struct Found<'a> {
     scene: &'a Scene,
     uses: Vec<EffectUse>,
     seen: FxHashSet<usize>,
+    /// How often each mesh file is placed in each size.
+    placed: FxHashMap<(*const LoadedMesh, u64, Option<bool>), u32>,
     /// What throws caustics, once lit.
-    casters: Vec<Span>,
+    casters: Vec<Caster>,
+    /// Whether something is sharp at all, be it ever so weak.
+    may_throw: bool,
 }
+
+/// Below this many triangles a copy of a mesh is cheaper for rays than a tree of its own, and small anyway.
+pub const LEAST_SHARED: usize = 1000;
 
 impl Found<'_> {
     fn add(&mut self, effect: Effect, span: Span) {
@@ -127,6 +92,10 @@ impl Found<'_> {
             Some(used) => used.count += 1,
             None => self.uses.push(EffectUse { effect, span, count: 1 }),
         }
+    }
+
+    fn add_all(&mut self, effects: &[Effect], span: Span) {
+        effects.iter().for_each(|&effect| self.add(effect, span));
     }
 
     fn of(&self, effect: Effect) -> Option<EffectUse> {
@@ -143,27 +112,86 @@ impl Found<'_> {
 
     fn object(&mut self, object: &Object) {
         let shape = &self.scene.shapes[object.shape];
-        match object.material.or(shape.material) {
-            Some(material) => self.material(material),
+        let written = object.material.or(shape.material);
+        self.shape(object, shape, written);
+        let throws = match written {
+            Some(material) => {
+                self.material(material);
+                caustics::caster(self.scene, material)
+            }
             // A mesh brings its own materials; grey otherwise.
             None if matches!(shape.kind, ShapeKind::Mesh { .. }) => {
                 self.own_materials(object.shape, shape.span)
             }
-            None => self.add(Effect::Indirect, object.span),
+            None => {
+                self.add(Effect::Indirect, object.span);
+                None
+            }
+        };
+        if let Some(span) = throws {
+            self.casters.push(Caster { span, region: self.region(object) });
         }
     }
 
-    /// Those that a mesh brings.
-    fn own_materials(&mut self, shape: Handle<Shape>, span: Span) {
-        self.add(Effect::Textures, span);
-        let Some(mesh) = self.loaded.mesh(shape) else { return };
-        if mesh.model.materials.iter().any(|material| material.is_clear()) {
-            [Effect::Specular, Effect::Dielectrics].into_iter().for_each(|effect| self.add(effect, span));
-            self.casters.push(span);
+    /// What holds an object; `None` for what has no end.
+    fn region(&self, object: &Object) -> Option<Region> {
+        region(object, self.scene, self.loaded)
+    }
+
+    fn shape(&mut self, object: &Object, shape: &Shape, material: Option<Handle<Material>>) {
+        let is_smooth = match &shape.kind {
+            ShapeKind::Mesh { scale, smooth, .. } => {
+                let Some(mesh) = self.loaded.mesh(object.shape) else { return };
+                self.instance(mesh, scale.value, *smooth, object.span);
+                let has_normals = || mesh.model.parts.iter().any(|part| part.normals.is_some());
+                smooth.unwrap_or_else(has_normals)
+            }
+            ShapeKind::Heightfield { smooth, .. } => *smooth,
+            ShapeKind::Revolve { method: RevolveMethod::Exact, .. } => {
+                material.is_some_and(|material| shines(self.scene, material))
+            }
+            ShapeKind::Revolve { .. } | ShapeKind::Sweep { .. } | ShapeKind::Extrude { .. } => true,
+            _ => false,
+        };
+        if is_smooth {
+            self.add(Effect::SmoothNormals, shape.span);
         }
-        if mesh.model.materials.iter().any(|material| material.shines()) {
-            self.add(Effect::MeshLights, span);
+    }
+
+    fn instance(&mut self, mesh: &Arc<LoadedMesh>, scale: f64, smooth: Option<bool>, span: Span) {
+        let count = self.placed.entry((Arc::as_ptr(mesh), scale.to_bits(), smooth)).or_default();
+        *count += 1;
+        let is_large = mesh.model.parts.iter().any(|part| part.triangles.len() >= LEAST_SHARED);
+        if *count >= 2 && is_large {
+            self.add(Effect::Instances, span);
         }
+    }
+
+    /// Those that a mesh brings; the mesh, if one of them throws caustics.
+    fn own_materials(&mut self, shape: Handle<Shape>, span: Span) -> Option<Span> {
+        let mesh = self.loaded.mesh(shape)?.clone();
+        let mut throws = None;
+        for (material, map) in mesh.model.materials.iter().zip(&mesh.maps) {
+            if material.shines() {
+                self.add(Effect::MeshLights, span);
+            } else if material.is_clear() {
+                self.add_all(&[Effect::Specular, Effect::Dielectrics], span);
+                throws = Some(span);
+            } else {
+                self.add(Effect::Indirect, span);
+            }
+            if material.shininess.is_some() {
+                self.add(Effect::RoughSpecular, span);
+                self.may_throw = true;
+            }
+            if map.is_some() {
+                self.add(Effect::Textures, span);
+            }
+        }
+        if mesh.model.parts.iter().any(|part| part.material.is_none()) {
+            self.add(Effect::Indirect, span);
+        }
+        throws
     }
 
     fn material(&mut self, handle: Handle<Material>) {
@@ -172,53 +200,21 @@ impl Found<'_> {
         }
         let scene = self.scene;
         let material = &scene.materials[handle];
-        let called: &[Effect] = match &material.kind {
-            MaterialKind::Diffuse { .. } => &[Effect::Indirect],
-            MaterialKind::Phong { .. } => &[Effect::Indirect, Effect::Glossy],
-            MaterialKind::Mirror { .. } => &[Effect::Specular],
-            MaterialKind::Metal { .. } => &[Effect::Glossy],
-            MaterialKind::Glass { absorption, roughness, abbe, .. } => {
+        self.may_throw |= caustics::may_throw(&material.kind);
+        self.add_all(&surface_effects(&material.kind), material.span);
+        match &material.kind {
+            MaterialKind::Glass { absorption, abbe, .. } => {
                 if let Some(abbe) = abbe {
                     self.add(Effect::Dispersion, abbe.span);
                 }
-                match (is_black(roughness), absorption.is_black()) {
-                    (true, true) => &[Effect::Specular, Effect::Dielectrics],
-                    (true, false) => &[Effect::Specular, Effect::Dielectrics, Effect::Absorption],
-                    (false, true) => &[Effect::Specular, Effect::Dielectrics, Effect::Glossy],
-                    (false, false) => {
-                        &[Effect::Specular, Effect::Dielectrics, Effect::Glossy, Effect::Absorption]
-                    }
+                if !absorption.is_black() {
+                    self.add(Effect::Absorption, material.span);
                 }
             }
-            MaterialKind::Plastic { .. } => &[Effect::Indirect, Effect::Glossy],
-            MaterialKind::Layer { .. } => &[Effect::Glossy],
-            MaterialKind::Principled(of) => {
-                if !of.emission.value.is_black() {
-                    self.add(Effect::MeshLights, of.emission.span);
-                }
-                match is_black(&of.transmission) {
-                    true => &[Effect::Indirect, Effect::Glossy],
-                    false => &[Effect::Indirect, Effect::Glossy, Effect::Specular, Effect::Dielectrics],
-                }
+            MaterialKind::Principled(of) if !of.emission.value.is_black() => {
+                self.add(Effect::MeshLights, of.emission.span);
             }
-            MaterialKind::Mask { .. } => &[Effect::Alpha],
-            MaterialKind::NormalMap { .. } | MaterialKind::Bump { .. } => &[Effect::NormalMaps],
-            MaterialKind::TwoSided { .. } => &[],
-            MaterialKind::Emissive { .. } => &[Effect::MeshLights],
-            MaterialKind::Whitted { reflection, transmission, .. } => {
-                if is_black(transmission) && is_black(reflection) {
-                    &[]
-                } else if is_black(transmission) {
-                    &[Effect::Specular]
-                } else {
-                    &[Effect::Specular, Effect::Dielectrics]
-                }
-            }
-            MaterialKind::Mix { .. } => &[],
-        };
-        called.iter().for_each(|&effect| self.add(effect, material.span));
-        if casts(&material.kind) {
-            self.casters.push(material.span);
+            _ => {}
         }
         material.kind.inputs().iter().for_each(|input| self.input(input));
         material.kind.parts().into_iter().for_each(|part| self.material(part));
@@ -247,10 +243,7 @@ impl Found<'_> {
                 LightKind::Sphere { .. } | LightKind::Rect { .. } | LightKind::Disk { .. } => {
                     self.add(Effect::SoftShadows, light.span)
                 }
-                LightKind::SunSky(_) => {
-                    self.add(Effect::SoftShadows, light.span);
-                    self.add(Effect::Environment, light.span);
-                }
+                LightKind::SunSky(_) => self.add_all(&[Effect::SoftShadows, Effect::Environment], light.span),
                 LightKind::Point { .. } | LightKind::Spot { .. } | LightKind::Directional { .. } => {}
             }
         }
@@ -265,62 +258,84 @@ impl Found<'_> {
         }
     }
 
-    /// Caustics need a light with power, something sharp that it can reach, and a surface that is not to fall on.
-    /// Over-approximates: what the light can reach is not looked at.
-    fn caustics(&mut self) {
-        let scene = self.scene;
-        let lit = scene.lights.iter().any(|light| light.brightness.value.is_lit())
-            || scene.environment.as_ref().is_some_and(ir::light::Environment::is_lit)
-            || self.of(Effect::MeshLights).is_some();
-        let receives = [Effect::Indirect, Effect::Glossy, Effect::Textures];
-        let receiver = receives.into_iter().any(|effect| self.of(effect).is_some());
-        if let (Some(&span), true, true) = (self.casters.first(), lit, receiver) {
-            self.uses.push(EffectUse { effect: Effect::Caustics, span, count: self.casters.len() });
+    /// Caustics need a light with power, something sharp that it reaches, and a surface for them to fall on. What is
+    /// missing comes back.
+    fn caustics(&mut self) -> Option<&'static str> {
+        let shines = self.of(Effect::MeshLights).is_some();
+        let is_received = self.of(Effect::Indirect).is_some();
+        self.may_throw = (self.may_throw || !self.casters.is_empty()) && is_received;
+        match caustics::missing(&self.casters, self.scene, shines, is_received) {
+            Some(why) => Some(why),
+            None => {
+                let lit = self.casters.iter().filter(|caster| caustics::is_lit(caster, self.scene, shines));
+                let mut spans: Vec<Span> = lit.map(|caster| caster.span).collect();
+                let first = spans[0];
+                spans.sort_by_key(|span| (span.start, span.end));
+                spans.dedup();
+                self.uses.push(EffectUse { effect: Effect::Caustics, span: first, count: spans.len() });
+                None
+            }
         }
     }
 }
 
-/// A metal smoother than this, and a Phong lobe narrower, gathers light into caustics rather than spreading it: the
-/// engine's own threshold, which draws the line between photons and paths.
-const SHARP_ROUGHNESS: f32 = 0.5;
-const SHARP_SHININESS: f64 = 32.0;
-/// A glossy lobe weaker than this throws nothing that is worth photons.
-const LEAST_SPECULAR: f32 = 0.1;
+/// What the engine takes for a mirror: α = roughness² below 10⁻³. Near it, both are called for.
+const MIRROR_ROUGHNESS: [f32; 2] = [0.031, 0.032];
 
-/// Whether light goes on from a material so sharply that it throws caustics.
-fn casts(kind: &MaterialKind) -> bool {
-    let may_exceed = |input: &Input, least: f32| match input {
-        Input::Constant(color) => color.value.mean() >= least,
-        Input::Texture(_) => true,
-    };
-    let is_sharp = |roughness: &Input| match roughness {
-        Input::Constant(roughness) => roughness.value.mean() < SHARP_ROUGHNESS,
-        Input::Texture(_) => true,
-    };
+/// How sharply a surface of this roughness scatters.
+fn gloss(roughness: &Input) -> &'static [Effect] {
+    match roughness {
+        Input::Constant(roughness) if roughness.value.mean() < MIRROR_ROUGHNESS[0] => &[Effect::Specular],
+        Input::Constant(roughness) if roughness.value.mean() > MIRROR_ROUGHNESS[1] => {
+            &[Effect::RoughSpecular, Effect::Indirect]
+        }
+        _ => &[Effect::Specular, Effect::RoughSpecular, Effect::Indirect],
+    }
+}
+
+/// What a material calls for by its kind. Whatever scatters into more than one direction calls for indirect light.
+fn surface_effects(kind: &MaterialKind) -> Vec<Effect> {
+    use Effect::{Alpha, Dielectrics, Indirect, MeshLights, NormalMaps, RoughSpecular, Specular};
     match kind {
-        MaterialKind::Glass { .. } => true,
-        MaterialKind::Mirror { color } => may_exceed(color, f32::MIN_POSITIVE),
-        MaterialKind::Metal { roughness, .. } => is_sharp(roughness),
-        MaterialKind::Principled(of) => {
-            !is_black(&of.transmission) || !is_black(&of.metallic) && is_sharp(&of.roughness)
+        MaterialKind::Diffuse { .. } => vec![Indirect],
+        MaterialKind::Phong { .. } => vec![Indirect, RoughSpecular],
+        MaterialKind::Mirror { .. } => vec![Specular],
+        MaterialKind::Metal { roughness, .. } => gloss(roughness).to_vec(),
+        MaterialKind::Glass { roughness, .. } => [gloss(roughness), &[Dielectrics]].concat(),
+        MaterialKind::Plastic { roughness, .. } | MaterialKind::Layer { roughness, .. } => {
+            let mut called = gloss(roughness).to_vec();
+            called.extend((!called.contains(&Indirect)).then_some(Indirect));
+            called
         }
-        MaterialKind::Phong { specular, shininess, .. } => {
-            shininess.value > SHARP_SHININESS && may_exceed(specular, LEAST_SPECULAR)
+        MaterialKind::Principled(of) => match is_black(&of.transmission) {
+            true => vec![Indirect, RoughSpecular],
+            false => vec![Indirect, RoughSpecular, Specular, Dielectrics],
+        },
+        MaterialKind::Mask { .. } => vec![Alpha],
+        MaterialKind::NormalMap { .. } | MaterialKind::Bump { .. } => vec![NormalMaps],
+        MaterialKind::Emissive { .. } => vec![MeshLights],
+        MaterialKind::Whitted { reflection, transmission, .. } => {
+            match (is_black(transmission), is_black(reflection)) {
+                (true, true) => vec![Indirect],
+                (true, false) => vec![Indirect, Specular],
+                (false, _) => vec![Indirect, Specular, Dielectrics],
+            }
         }
-        // The coat of plastic mirrors too little; what is made of other materials casts as those do.
-        MaterialKind::Diffuse { .. }
-        | MaterialKind::Plastic { .. }
-        | MaterialKind::Emissive { .. }
-        | MaterialKind::Whitted { .. }
-        | MaterialKind::Layer { .. }
-        | MaterialKind::Mask { .. }
-        | MaterialKind::TwoSided { .. }
-        | MaterialKind::NormalMap { .. }
-        | MaterialKind::Bump { .. }
-        | MaterialKind::Mix { .. } => false,
+        MaterialKind::TwoSided { .. } | MaterialKind::Mix { .. } => Vec::new(),
     }
 }
 
-fn is_black(input: &Input) -> bool {
+/// Whether a material shines, alone or in a mix.
+pub fn shines(scene: &Scene, material: Handle<Material>) -> bool {
+    let kind = &scene.materials[material].kind;
+    match kind {
+        MaterialKind::Emissive { .. } => true,
+        MaterialKind::Principled(of) => !of.emission.value.is_black(),
+        _ => kind.parts().into_iter().any(|part| shines(scene, part)),
+    }
+}
+
+/// Whether an input is black all over.
+pub fn is_black(input: &Input) -> bool {
     matches!(input, Input::Constant(color) if color.is_black())
 }

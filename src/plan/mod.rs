@@ -1,23 +1,36 @@
 //! What a scene calls for: its effects with the lines that need them, and the method that suits them.
 
-pub mod effects;
+mod absent;
+mod caustics;
+mod effect;
+mod effects;
 mod error;
+mod wanted;
 
 use crate::diag::Problems;
 use crate::ir::light::{Environment, EnvironmentRadiance, LightKind};
 use crate::ir::{Camera, MaterialKind, Method, PixelPoint, ShapeKind};
 use crate::load::Loaded;
 use crate::source::Span;
-pub use effects::{Effect, EffectUse};
+pub use effect::Effect;
+pub use effects::{EffectUse, LEAST_SHARED};
 pub use error::PlanWarning;
+pub use wanted::Wanted;
 
 /// What will be simulated, and how.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Plan {
     /// The effects that the scene calls for.
     pub effects: Vec<EffectUse>,
+    /// The others, each with the reason why it does not.
+    pub absent: Vec<(Effect, String)>,
+    /// What is simulated: by default what is called for or may be there, so that nothing is lost; see [`Plan::want`].
+    pub simulated: Vec<Effect>,
+    in_doubt: Vec<Effect>,
     /// The integrator.
     pub method: Method,
+    /// Who chose it.
+    pub chosen_by: ChosenBy,
     /// Why it was chosen, in a sentence.
     pub why: String,
     /// Photons emitted a pass.
@@ -39,6 +52,16 @@ impl Plan {
     pub fn needs(&self, effect: Effect) -> bool {
         self.effects.iter().any(|used| used.effect == effect)
     }
+
+    /// Whether the scene may call for an effect, be it ever so weakly.
+    pub fn may_need(&self, effect: Effect) -> bool {
+        self.in_doubt.contains(&effect)
+    }
+
+    /// Whether an effect is simulated.
+    pub fn simulates(&self, effect: Effect) -> bool {
+        self.simulated.contains(&effect)
+    }
 }
 
 /// Photons a pass, unless the scene says otherwise.
@@ -58,17 +81,45 @@ const DEPTH: u32 = 64;
 /// The same for recursive ray tracing, whose tree of rays may double at every vertex.
 const CLASSIC_DEPTH: u32 = 10;
 
-/// Derives the plan of a scene seen by `camera`. `forced` overrides the scene's method.
-pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, forced: Option<Method>) -> Plan {
-    let effects = effects::effects(loaded, camera);
+/// Which method a command asks for.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub enum Wish {
+    /// None: what the scene asks for counts.
+    #[default]
+    Scene,
+    /// The one that suits the scene, also against what the scene says.
+    Auto,
+    /// This one.
+    Method(Method),
+}
+
+impl From<Option<Method>> for Wish {
+    fn from(method: Option<Method>) -> Self {
+        method.map_or(Self::Scene, Self::Method)
+    }
+}
+
+/// Who chose the method of a plan.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ChosenBy {
+    /// The compiler, because it suits the scene.
+    Compiler,
+    /// The scene, here.
+    Scene(Span),
+    /// The command.
+    Command,
+}
+
+/// Derives the plan of a scene seen by `camera`. A wish for a method overrides the scene's own.
+pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, wish: impl Into<Wish>) -> Plan {
+    let effects::Survey { uses: effects, in_doubt, absent } = effects::survey(loaded, camera);
     let render = &loaded.scene.render;
-    let written = render.method.map(|method| method.value);
-    let (method, why) = match (forced, written) {
-        (Some(method), _) => (method, "asked for on the command line".to_owned()),
-        (None, Some(method)) => (method, "asked for by the scene".to_owned()),
-        (None, None) => {
+    let (method, chosen_by, why) = match (wish.into(), render.method) {
+        (Wish::Method(method), _) => (method, ChosenBy::Command, "asked for on the command line"),
+        (Wish::Scene, Some(method)) => (method.value, ChosenBy::Scene(method.span), "asked for by the scene"),
+        (Wish::Scene | Wish::Auto, _) => {
             let (method, why) = choose(loaded, &effects);
-            (method, why.to_owned())
+            (method, ChosenBy::Compiler, why)
         }
     };
     let photons = &render.photons;
@@ -83,8 +134,12 @@ pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, forced: Option<Method>
         method == Method::Classic && render.classic.pixel != PixelPoint::Filter && !effects.iter().any(draws);
     Plan {
         effects,
+        absent,
+        simulated: in_doubt.clone(),
+        in_doubt,
         method,
-        why,
+        chosen_by,
+        why: why.to_owned(),
         photon_count: photons.count.map_or(photon_count, |count| count.value),
         photon_k: photons.k.map_or(photon_k, |k| k.value),
         photon_radius: photons.radius.map(|radius| radius.value),
@@ -109,8 +164,15 @@ pub fn warn(plan: &Plan, loaded: &Loaded<'_>, problems: &mut Problems) {
     if let (Method::Ppm, Some((light, plane))) = (plan.method, endless(loaded)) {
         problems.push(PlanWarning::EndlessPhotons { light, plane });
     }
-    let is_kept =
-        [Effect::Indirect, Effect::Glossy, Effect::Textures].into_iter().any(|effect| plan.needs(effect));
+    let asked = match plan.chosen_by {
+        ChosenBy::Compiler => None,
+        ChosenBy::Scene(span) => Some(Some(span)),
+        ChosenBy::Command => Some(None),
+    };
+    if let (Method::Pt, Some(asked)) = (plan.method, asked) {
+        crate::check::paths_miss(loaded.scene, loaded, asked, problems);
+    }
+    let is_kept = plan.needs(Effect::Indirect);
     let specular = plan.effects.iter().find(|used| used.effect == Effect::Specular);
     if let (Method::Ppm | Method::Hybrid, false, Some(specular)) = (plan.method, is_kept, specular) {
         problems.push(PlanWarning::PhotonsWithoutReceiver { specular: specular.span });
@@ -147,11 +209,6 @@ fn endless(loaded: &Loaded<'_>) -> Option<(Span, Span)> {
     let is_plane =
         |object: &&crate::ir::Object| matches!(scene.shapes[object.shape].kind, ShapeKind::Plane { .. });
     Some((light, scene.objects.iter().find(is_plane)?.span))
-}
-
-/// The method that suits a scene, whatever it says itself.
-pub fn suited(loaded: &Loaded<'_>, camera: Option<&Camera>) -> Method {
-    choose(loaded, &effects::effects(loaded, camera)).0
 }
 
 /// Photons for the caustics where light from somewhere reaches matt surfaces by way of something sharp: paths from the

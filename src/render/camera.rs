@@ -103,15 +103,6 @@ impl Camera {
         self.height
     }
 
-    /// Whether rays start on an opening: only then is `u_lens` of [`Self::ray`] looked at.
-    pub fn has_lens(&self) -> bool {
-        match &self.lens {
-            Some(LensSpec::Thin(lens)) => lens.radius > 0.0,
-            Some(LensSpec::Real(_)) => true,
-            Some(LensSpec::View(_)) | None => false,
-        }
-    }
-
     /// The angle across a pixel in the middle of the picture, in radians: what it covers grows by that for each metre.
     pub fn pixel_angle(&self) -> f32 {
         self.half_width.length() * 2.0 / self.width as f32
@@ -185,7 +176,7 @@ mod tests {
             closed.ray([1, 1], u, u).expect("open"),
             Camera::new(spec(None)).ray([1, 1], u, u).expect("open"),
         );
-        assert!(!closed.has_lens() && a.ray.o == b.ray.o && (a.ray.d - b.ray.d).length() < 1e-6);
+        assert!(a.ray.o == b.ray.o && (a.ray.d - b.ray.d).length() < 1e-6);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What a path is inside of.
 
 use super::bsdf::{Interior, MaterialId, Materials, Wavelength};
+use super::effects::Effects;
 use super::sampler::{Dim, Sampler};
 use crate::math::{Rgb, float};
 
@@ -35,10 +36,10 @@ impl Media {
     pub const NONE: Self =
         Self { stack: [MaterialId(0); Self::DEPTH], count: 0, wavelength: None, colored: false };
 
-    /// Free space at the start of a path, which draws its wavelength if glass calls for one.
+    /// Free space at the start of a path, which draws its wavelength if some glass disperses.
     pub fn start(materials: &Materials, sampler: &Sampler) -> Self {
         let draw = || Wavelength::sample(sampler.get_1d(Dim::Wavelength));
-        Self { wavelength: materials.disperses().then(draw), ..Self::NONE }
+        Self { wavelength: materials.effects().has(Effects::DISPERSION).then(draw), ..Self::NONE }
     }
 
     /// Goes through the surface of a solid, as [`Self::cross`]; the factor of the light that does.
@@ -80,8 +81,9 @@ impl Media {
         let (here, there) = (self.filling(materials), beyond.filling(materials));
         // Whoever leaves what was never entered has been in it all along.
         let here = if !from_outside && beyond.count == self.count { Some((solid, own)) } else { here };
-        let ior =
-            |filling: Option<(MaterialId, &Interior)>| filling.map_or(1.0, |(_, interior)| interior.ior);
+        let ior = |filling: Option<(MaterialId, &Interior)>| {
+            filling.map_or(1.0, |(_, interior)| self.ior(interior))
+        };
         let id = |filling: Option<(MaterialId, &Interior)>| filling.map(|(id, _)| id);
         let (inner, outer) = if from_outside { (there, here) } else { (here, there) };
         Some(Boundary {
@@ -92,12 +94,20 @@ impl Media {
 
     /// The share of light that is left after `distance` metres.
     pub fn transmittance(&self, distance: f32, materials: &Materials) -> Rgb {
-        if self.count == 0 {
+        if self.count == 0 || !materials.effects().has(Effects::ABSORPTION) {
             return Rgb::WHITE;
         }
         self.filling(materials).map_or(Rgb::WHITE, |(_, interior)| {
             interior.absorption.map(|sigma| if sigma > 0.0 { float::exp(-sigma * distance) } else { 1.0 })
         })
+    }
+
+    /// The refractive index of a solid for this path.
+    fn ior(&self, interior: &Interior) -> f32 {
+        match self.wavelength {
+            Some(wavelength) if interior.spread > 0.0 => wavelength.ior(interior.ior, interior.spread),
+            _ => interior.ior,
+        }
     }
 
     /// What fills the space: the solid of highest priority, of equals the one entered last.
@@ -125,6 +135,18 @@ mod tests {
             Material::Glass(Glass { absorption: Rgb::gray(absorption), priority, ..Glass::of_ior(ior) })
         };
         Materials::new(vec![glass(1.5, 0.0, 0), glass(1.25, 1.0, 0), glass(2.0, 0.0, 1)], Vec::new())
+    }
+
+    #[test]
+    fn glass_that_spreads_colours_bends_blue_more_than_red() {
+        let flint = Glass { spread: 0.017, ..Glass::of_ior(1.62) };
+        let materials = Materials::new(vec![Material::Glass(flint)], Vec::new());
+        let ior = |u| {
+            let media = Media { wavelength: Some(Wavelength::sample(u)), ..Media::NONE };
+            media.relative_ior(MaterialId(0), true, &materials).expect("it is glass")
+        };
+        let (blue, red) = (ior(0.0), ior(0.999));
+        assert!(red < 1.62 && 1.62 < blue && (0.02..0.06).contains(&(blue - red)), "{blue} {red}");
     }
 
     #[test]

@@ -6,9 +6,11 @@ pub mod accel;
 pub mod bsdf;
 pub mod camera;
 pub mod driver;
+pub mod effects;
 pub mod film;
 pub mod geometry;
 pub mod integrator;
+pub mod ledger;
 pub mod light;
 pub mod media;
 pub mod photon;
@@ -21,4 +23,5 @@ pub use driver::{
     GatherRadius, HybridSettings, Layers, Method, Monitor, Outcome, PpmSettings, Progress, Settings, Stats,
     Stop, StoppedBy, layers, render,
 };
+pub use effects::Effects;
 pub use world::{Parts, World};

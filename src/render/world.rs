@@ -2,7 +2,9 @@
 
 use super::bsdf::{Bsdf, Material, Materials, Relief, facing};
 use super::camera::Camera;
+use super::effects::Effects;
 use super::geometry::{Geometry, Hit, Shapes, SurfacePoint};
+use super::ledger;
 use super::light::{Environment, Light, Lights, Sky};
 use super::media::Media;
 use super::sampler::hash_unit;
@@ -32,6 +34,8 @@ pub struct Parts {
     pub environment: Option<Environment>,
     /// Who looks.
     pub camera: Camera,
+    /// What rays have to ask about; [`Effects::ALL`] is always right.
+    pub effects: Effects,
 }
 
 /// A world ready for rays.
@@ -44,6 +48,10 @@ pub struct World {
     pub lights: Lights,
     /// Who looks.
     pub camera: Camera,
+    /// What is simulated.
+    pub effects: Effects,
+    /// Whether the costs of its objects are booked, in the [`ledger`] of the thread.
+    pub is_watched: bool,
     /// How long the tree and the tables took to build, in seconds.
     pub build_seconds: f64,
 }
@@ -54,21 +62,32 @@ impl World {
         let start = Instant::now();
         let Parts { meshes, shared, instances, solids, .. } = parts;
         let geometry = Geometry::new(Shapes { meshes, shared, instances, solids });
-        let materials = Materials::new(parts.materials, parts.textures);
+        let materials = Materials::new(parts.materials, parts.textures).with_effects(parts.effects);
         let lights = Lights::new(parts.lights, parts.environment.map(Sky::new), &geometry, &materials);
         let build_seconds = start.elapsed().as_secs_f64();
-        Self { geometry, materials, lights, camera: parts.camera, build_seconds }
+        Self {
+            geometry,
+            materials,
+            lights,
+            camera: parts.camera,
+            effects: parts.effects,
+            is_watched: false,
+            build_seconds,
+        }
     }
 
     /// The nearest surface along a ray; through the holes of masks it goes on.
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         let hit = self.geometry.closest_hit(ray)?;
-        if self.materials.has_holes() { self.beyond_holes(ray, hit) } else { Some(hit) }
+        if self.effects.has(Effects::ALPHA) { self.beyond_holes(ray, hit) } else { Some(hit) }
     }
 
     /// Whether anything lies on the ray before its end.
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        self.geometry.any_hit(ray) && (!self.materials.has_holes() || self.closest_hit(ray).is_some())
+        if self.is_watched {
+            ledger::look();
+        }
+        self.geometry.any_hit(ray) && (!self.effects.has(Effects::ALPHA) || self.closest_hit(ray).is_some())
     }
 
     /// The first hit that is no hole. `t` counts from the start of the ray.
@@ -100,7 +119,11 @@ impl World {
 
     /// The full surface point of a hit.
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        self.geometry.surface_point(ray, hit)
+        let surface = self.geometry.surface_point(ray, hit);
+        if self.is_watched {
+            ledger::arrive(surface.source);
+        }
+        surface
     }
 
     /// How the surface scatters there.

@@ -5,7 +5,7 @@ use snell::render::bsdf::{Glass, Input, Material};
 use snell::render::camera::{Camera, CameraSpec, Filter};
 use snell::render::film::Film;
 use snell::render::shape::{MaterialId, Mesh, Solid, SolidKind, SourceId};
-use snell::render::{Method, Parts, Settings, Stop, World, render};
+use snell::render::{Effects, Method, Parts, Settings, Stop, World, render};
 
 /// A constant grey input.
 pub fn gray(value: f32) -> Input {
@@ -92,6 +92,7 @@ pub fn empty(camera: Camera) -> Parts {
         lights: Vec::new(),
         environment: None,
         camera,
+        effects: Effects::ALL,
     }
 }
 

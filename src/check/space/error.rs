@@ -160,7 +160,9 @@ pub enum SpaceError {
     #[diagnostic(
         code(snell::check::caustics_invisible),
         severity(warning),
-        help("write `method: auto`, which sends photons, or give the light a size: `light sphere {{ .. }}`")
+        help(
+            "use the method `auto`, which sends photons, or give the light a size: `light sphere {{ .. }}`"
+        )
     )]
     CausticsInvisible {
         #[label("no path can find a light without size")]
@@ -168,14 +170,14 @@ pub enum SpaceError {
         #[label("by way of this")]
         object: Span,
         #[label("with this method")]
-        method: Span,
+        method: Option<Span>,
     },
     #[error("path tracing finds the caustics that this light throws only by luck")]
     #[diagnostic(
         code(snell::check::caustics_by_luck),
         severity(warning),
         help(
-            "write `method: auto`, which sends photons, or make the light larger: what one path in {paths} finds are specks"
+            "use the method `auto`, which sends photons, or make the light larger: what one path in {paths} finds are specks"
         )
     )]
     CausticsByLuck {
@@ -186,7 +188,7 @@ pub enum SpaceError {
         #[label("by way of this")]
         object: Span,
         #[label("with this method")]
-        method: Span,
+        method: Option<Span>,
     },
     #[error("paths of at most {depth} vertices {end}")]
     #[diagnostic(

@@ -20,7 +20,8 @@ use crate::ir::{Handle, LightKind, Method, Object, Scene, Shape, ShapeKind};
 use crate::math::{DAffine3, DVec3, Vec3};
 use crate::source::Span;
 use error::SpaceError;
-use region::{Extent, Region};
+use region::Extent;
+pub use region::Region;
 use rustc_hash::FxHashMap;
 use solid::Solid;
 use std::rc::Rc;
@@ -74,6 +75,25 @@ pub fn survey(scene: &Checked, meshes: &dyn Meshes, problems: &mut Problems) {
     }
 }
 
+/// What holds an object in its place; `None` for what has no end and for meshes that were left out.
+pub fn region(object: &Object, scene: &Scene, meshes: &dyn Meshes) -> Option<Region> {
+    let kind = &scene.shapes[object.shape].kind;
+    let corners = || {
+        let parts = meshes.parts(object.shape);
+        Extent::of(parts.iter().flat_map(|part| corners(part, kind)).flatten())
+    };
+    Some(Region::of_shape(kind, corners)?.moved(&object.world_from_object))
+}
+
+/// Notes the caustics that path tracing misses; `asked` is where the scene asks for that method, `None` where the command
+/// does.
+pub fn paths_miss(scene: &Scene, meshes: &dyn Meshes, asked: Option<Span>, problems: &mut Problems) {
+    if scene.objects.len() <= MOST_OBJECTS {
+        let missed = Survey::of(scene, meshes).caustics(asked);
+        missed.into_iter().for_each(|doubt| problems.push(doubt));
+    }
+}
+
 /// Whether some object is a mesh, so that a survey has to wait for its file.
 pub(super) fn places_meshes(scene: &Scene) -> bool {
     scene.objects.iter().any(|object| matches!(scene.shapes[object.shape].kind, ShapeKind::Mesh { .. }))
@@ -104,7 +124,7 @@ impl Check<'_> {
             // There light may go through everything, and depth counts otherwise: only what is seen is certain.
             survey.lamps.clear();
         } else {
-            doubts.extend([survey.aims(), survey.caustics(), survey.short_paths()]);
+            doubts.extend([survey.aims(), survey.short_paths()]);
         }
         doubts.push(survey.rooms());
         doubts.into_iter().flatten().for_each(|doubt| self.report(doubt));

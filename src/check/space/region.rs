@@ -5,10 +5,11 @@ use crate::math::{DAffine3, DMat3, DVec2, DVec3};
 
 /// A part of space. It holds all of a thing, so what is true of every point in it is true of the thing.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) enum Region {
+pub enum Region {
     /// The convex hull of points.
     Hull(Vec<DVec3>),
     /// The unit ball, stretched by `axes` and moved to `center`; flat where a column is 0.
+    #[expect(missing_docs, reason = "the sentence above names both")]
     Round { center: DVec3, axes: DMat3 },
 }
 
@@ -120,7 +121,7 @@ impl Region {
     }
 
     /// The largest `n · p` of its points p.
-    pub(super) fn support(&self, n: DVec3) -> f64 {
+    pub fn support(&self, n: DVec3) -> f64 {
         match self {
             Self::Hull(points) => points.iter().map(|p| n.dot(*p)).fold(f64::NEG_INFINITY, f64::max),
             Self::Round { center, axes } => n.dot(*center) + (axes.transpose() * n).length(),
@@ -144,7 +145,7 @@ impl Region {
     }
 
     /// A ball that holds it: the smallest for balls, a good one for the rest.
-    pub(super) fn ball(&self) -> (DVec3, f64) {
+    pub fn ball(&self) -> (DVec3, f64) {
         match self {
             Self::Hull(_) => {
                 let Extent { min, max } = self.extent();

@@ -3,6 +3,7 @@
 use super::conductor::{Conductor, MIRROR_ALPHA};
 use super::{Bsdf, Coat, Lobe, Pane, Reflectance, RoughDielectric, Substrate};
 use crate::math::Rgb;
+use crate::render::effects::Effects;
 use crate::render::geometry::SurfacePoint;
 pub use crate::render::shape::MaterialId;
 pub use crate::render::texture::{Input, TextureId};
@@ -250,10 +251,8 @@ pub struct Materials {
     emissions: Vec<Emission>,
     /// By material: what fills it, if it is clear.
     interiors: Vec<Option<Interior>>,
-    /// Whether any has holes.
-    has_holes: bool,
-    /// Whether any bends each wavelength in its own way.
-    disperses: bool,
+    /// What is simulated of them.
+    effects: Effects,
 }
 
 impl Materials {
@@ -262,14 +261,12 @@ impl Materials {
     /// # Panics
     /// When a mix holds more lobes than a [`Bsdf`] has room for.
     pub fn new(materials: Vec<Material>, textures: Vec<Texture>) -> Self {
-        let has_holes = materials.iter().any(|material| matches!(material, Material::Mask { .. }));
         let (emissions, interiors) = (Vec::new(), Vec::new());
         let textures = Textures::new(textures);
-        let mut this = Self { materials, textures, emissions, interiors, has_holes, disperses: false };
+        let mut this = Self { materials, textures, emissions, interiors, effects: Effects::ALL };
         let ids = (0..this.materials.len() as u32).map(MaterialId);
         this.emissions = ids.clone().map(|id| this.find_emission(id)).collect();
         this.interiors = ids.clone().map(|id| this.find_interior(id)).collect();
-        this.disperses = this.interiors.iter().flatten().any(|interior| interior.spread > 0.0);
         let most = ids.map(|id| lobe_count(&this.materials, id)).max().unwrap_or(0);
         assert!(most <= Bsdf::MAX_LOBES, "a mix of materials has at most {} lobes", Bsdf::MAX_LOBES);
         this
@@ -306,7 +303,9 @@ impl Materials {
             Material::TwoSided { front, back } => {
                 self.face(if from_outside { front } else { back }, from_outside)
             }
-            Material::Relief { base, relief } => (base, Some(relief)),
+            Material::Relief { base, relief } => {
+                (base, self.effects.has(Effects::NORMAL_MAPS).then_some(relief))
+            }
             _ => (id, None),
         }
     }
@@ -316,14 +315,15 @@ impl Materials {
         self.interiors[id.0 as usize].as_ref()
     }
 
-    /// Whether any material has holes.
-    pub fn has_holes(&self) -> bool {
-        self.has_holes
+    /// What is simulated of them.
+    pub fn effects(&self) -> Effects {
+        self.effects
     }
 
-    /// Whether any material bends each wavelength in its own way.
-    pub fn disperses(&self) -> bool {
-        self.disperses
+    /// The same materials, of which only so much is simulated.
+    #[must_use]
+    pub fn with_effects(self, effects: Effects) -> Self {
+        Self { effects, ..self }
     }
 
     /// Whether a material may have holes.

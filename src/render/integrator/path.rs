@@ -6,6 +6,7 @@ use super::{Counters, Integrator, Pass};
 use crate::math::{Ray, Rgb, Vec3};
 use crate::render::bsdf::{Bsdf, BsdfSample, MaterialId, Transport};
 use crate::render::driver::HybridSettings;
+use crate::render::effects::Effects;
 use crate::render::geometry::{PrimId, SurfacePoint};
 use crate::render::light::Viewpoint;
 use crate::render::media::Media;
@@ -52,7 +53,9 @@ impl<'a> PathTracer<'a> {
 
     /// One that leaves caustics to photons, if there are any.
     pub fn with_caustics(world: &'a World, settings: HybridSettings, max_depth: u32) -> Self {
-        Self { world, max_depth, caustics: Caustics::new(world, settings, max_depth) }
+        let has_any = world.effects.has(Effects::CAUSTICS);
+        let caustics = has_any.then(|| Caustics::new(world, settings, max_depth)).flatten();
+        Self { world, max_depth, caustics }
     }
 }
 
@@ -74,7 +77,7 @@ impl Integrator for PathTracer<'_> {
         let mut last = Last { from: Viewpoint { p: ray.o, n: None }, pdf: f32::INFINITY, sharp: None };
         let mut media = Media::start(&self.world.materials, sampler);
         let mut eta_scale = 1.0; // the factor η² that refraction has taken from beta, and will give back
-        let mut after_wide = false;
+        let (mut after_wide, mut is_last) = (false, false);
         let (mut footprint, mut angle) = (0.0, self.world.camera.pixel_angle());
 
         for depth in 0..self.max_depth {
@@ -90,7 +93,7 @@ impl Integrator for PathTracer<'_> {
 
             // Add light emitted here, then light straight from the lamps.
             radiance += beta * self.emitted(&surface, wo, &last);
-            if depth + 1 == self.max_depth {
+            if depth + 1 == self.max_depth || is_last {
                 break;
             }
             let bsdf = self.world.bsdf_between(&surface, wo, &media);
@@ -107,6 +110,7 @@ impl Integrator for PathTracer<'_> {
             beta *= next.weight;
             eta_scale *= next.eta * next.eta;
             ray = surface.spawn(next.wi);
+            is_last = !next.specular && !self.world.effects.has(Effects::INDIRECT);
             last = Last {
                 from: vertex.viewpoint(),
                 pdf: if next.specular { f32::INFINITY } else { next.pdf },

@@ -3,6 +3,7 @@
 use super::Photon;
 use crate::math::{Ray, Rgb};
 use crate::render::bsdf::{Lobe, Transport};
+use crate::render::effects::Effects;
 use crate::render::integrator::{Counters, Pass};
 use crate::render::media::Media;
 use crate::render::sampler::{Dim, Sampler};
@@ -97,6 +98,9 @@ impl Tracer<'_> {
             // What is absorbed ends photons rather than dimming them: those that survive all carry much alike.
             let survival = next.weight.max_component().min(1.0);
             if sampler.get_1d(Dim::Roulette(bounce)) >= survival {
+                return;
+            }
+            if !next.specular && !self.world.effects.has(Effects::INDIRECT) {
                 return;
             }
             power *= next.weight / survival;
