@@ -103,6 +103,11 @@ impl Camera {
         self.height
     }
 
+    /// Where rays start, or about where, in metres.
+    pub fn position(&self) -> Vec3 {
+        self.position
+    }
+
     /// Whether rays start on an opening: only then is `u_lens` of [`Self::ray`] looked at.
     pub fn has_lens(&self) -> bool {
         match &self.lens {
