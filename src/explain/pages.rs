@@ -136,7 +136,7 @@ const PAGES: &[Page] = pages! {
     }
     plan {
         classic_only: Error,
-        endless_photons: Warning,
+        endless_photons: Error,
         photons_without_receiver: Warning,
     }
     resolve {
