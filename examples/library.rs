@@ -40,8 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let region = outcome.film.region();
     let (width, height, radiance) = (region.width, region.height, outcome.film.mean());
-    let (standard_error, sample_counts, facts) = (Vec::new(), Vec::new(), Vec::new());
-    let frame = Frame { width, height, radiance, standard_error, sample_counts, facts };
+    let frame = Frame { width, height, radiance, ..Frame::default() };
     let mut bytes = Cursor::new(Vec::new());
     let display = Display { exposure: Exposure::Auto, tone: Tone::Agx, floor: false };
     snell::output::encode(&mut bytes, Format::Ppm, &frame, &display)?;

@@ -22,6 +22,7 @@ mod meaning;
 mod messages;
 mod metrics;
 mod mutation;
+mod pictures;
 mod readme;
 mod reference;
 mod robust;

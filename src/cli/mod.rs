@@ -12,6 +12,7 @@ mod explain;
 mod fmt;
 mod frames;
 mod interrupt;
+mod layers;
 mod lossy;
 mod messages;
 mod new;
@@ -25,6 +26,7 @@ mod session;
 mod study;
 mod summary;
 mod sweep;
+mod tone;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -47,6 +49,8 @@ enum Command {
     Fmt(fmt::FmtArgs),
     /// Show what a scene calls for: its effects, why, and the method
     Plan(plan::PlanArgs),
+    /// Show a picture of radiance with another exposure or tone curve
+    Tone(tone::ToneArgs),
     /// Measure how far a picture is from another, and whether noise explains it
     Compare(compare::CompareArgs),
     /// Measure what accuracy costs in time: error against seconds, as a table and a page with plots
@@ -94,6 +98,7 @@ pub fn run() -> ExitCode {
         Command::Check(args) => check::run(&args),
         Command::Fmt(args) => fmt::run(&args),
         Command::Plan(args) => plan::run(&args),
+        Command::Tone(args) => tone::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Convert(args) => convert::run(&args),

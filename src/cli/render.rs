@@ -2,6 +2,7 @@
 
 use super::args::{self, MessageArgs, Method, SceneArgs};
 use super::frames::{self, Frames};
+use super::layers;
 use super::lossy::{self, Loss};
 use super::pilot::BYTES_PER_PIXEL;
 use super::progress::Bar;
@@ -12,7 +13,7 @@ use super::{Exit, fail, interrupt, note};
 use crate::check::Checked;
 use crate::ir;
 use crate::lower::Lowered;
-use crate::output::{Display, Exposure, Frame, Target, Tone};
+use crate::output::{Display, Exposure, Format, Frame, Target, Tone};
 use crate::plan::{Plan, Wanted, Wish};
 use crate::render::film::Region;
 use crate::render::{Outcome, Settings, Stop, StoppedBy};
@@ -53,7 +54,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "SHARE", value_parser = args::share, allow_hyphen_values = true)]
     error: Option<f64>,
     /// The size of the picture in pixels, such as `640x480`
-    #[arg(long, value_name = "WxH", value_parser = args::size)]
+    #[arg(long, value_name = "WxH", value_parser = args::size, allow_hyphen_values = true)]
     size: Option<(u32, u32)>,
     /// Render only this part: column and row of its upper left corner, width and height
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
@@ -71,6 +72,10 @@ pub struct RenderArgs {
     /// Leave out what `--effects` says though the scene calls for it; the picture says so
     #[arg(long)]
     lossy: bool,
+    /// What an .exr holds beside colour, its standard error and the number of samples; may be repeated, `all` or `none`
+    /// [default: albedo,normal,depth]
+    #[arg(long, value_name = "LAYER", value_delimiter = ',')]
+    layers: Vec<layers::Choice>,
     /// Write all that the closing words say, and more, as JSON
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
@@ -174,8 +179,8 @@ pub fn one(
     let mut rendered = Rendered { scene: session.name.clone(), files: Vec::new(), ready, outcome };
     // Of nothing seen, no picture is better than a black one.
     if rendered.outcome.stats.passes > 0 {
-        let paths: Result<Vec<PathBuf>, _> =
-            write(&mut targets, &rendered).and_then(|()| targets.into_iter().map(Target::finish).collect());
+        let paths: Result<Vec<PathBuf>, _> = write(&mut targets, args, &rendered)
+            .and_then(|()| targets.into_iter().map(Target::finish).collect());
         rendered.files = paths.map_err(fail)?.iter().map(|path| path.display().to_string()).collect();
     }
     Ok(rendered)
@@ -295,6 +300,9 @@ impl Ready {
         if let Some(path) = overwritten(args, targets, &self.inputs) {
             return Err(format!("the scene reads `{}`: write elsewhere with `-o`", path.display()));
         }
+        if !args.layers.is_empty() && !holds_layers(targets) {
+            return Err("layers need a file that can hold them: add `-o NAME.exr`".to_owned());
+        }
         let (width, height) = self.camera.film.size.value;
         let picture = Region { x: 0, y: 0, width, height };
         let region = self.settings.crop.map_or(picture, |crop| crop.clipped(&picture));
@@ -376,20 +384,34 @@ fn writable(report: &Path) -> Result<(), String> {
     }
 }
 
-fn write(targets: &mut [Target], rendered: &Rendered) -> Result<(), crate::output::OutputError> {
-    let outcome = &rendered.outcome;
+fn write(
+    targets: &mut [Target],
+    args: &RenderArgs,
+    rendered: &Rendered,
+) -> Result<(), crate::output::OutputError> {
+    let (outcome, ready) = (&rendered.outcome, &rendered.ready);
+    let display = display(&ready.camera.film, ready.floor);
+    let mut facts = rendered.summary().facts();
+    facts.extend(display.facts());
+    let wanted = if holds_layers(targets) { layers::chosen(&args.layers) } else { Vec::new() };
+    let planes = layers::planes(&wanted, &ready.lowered.world, ready.settings.seed, outcome);
     let region = outcome.film.region();
     let variance = outcome.film.variance().unwrap_or_default();
     let frame = Frame {
         width: region.width,
         height: region.height,
         radiance: outcome.film.mean(),
+        planes,
         standard_error: variance.iter().map(|pixel| pixel.map(f32::sqrt)).collect(),
         sample_counts: vec![outcome.stats.passes; region.area()],
-        facts: rendered.summary().facts(),
+        facts,
     };
-    let display = display(&rendered.ready.camera.film, rendered.ready.floor);
     targets.iter_mut().try_for_each(|target| target.write(&frame, &display))
+}
+
+/// Whether any of the files can hold more than colours.
+fn holds_layers(targets: &[Target]) -> bool {
+    targets.iter().any(|target| target.format() == Format::Exr)
 }
 
 fn conclude(args: &RenderArgs, rendered: &Rendered) -> Exit {

@@ -1,12 +1,12 @@
-//! OpenEXR: radiance, its standard error and the number of samples as channels of one file.
+//! OpenEXR: radiance, its standard error, the number of samples and further layers as channels of one file.
 
 use super::Frame;
 use crate::math::Rgb;
 use exr::prelude::*;
 use std::io::{Seek, Write};
 
-/// Writes the picture: channels `R G B`, `error.R error.G error.B` where the standard error is known, and `samples`
-/// where the numbers of samples are.
+/// Writes the picture: channels `R G B`, `error.R error.G error.B` where the standard error is known, `samples` where
+/// the numbers of samples are, and the planes by their names.
 pub fn encode(out: &mut (impl Write + Seek), frame: &Frame) -> std::io::Result<()> {
     let plane = |pixels: &[Rgb], channel: usize| {
         FlatSamples::F32(pixels.iter().map(|pixel| pixel[channel]).collect())
@@ -21,6 +21,10 @@ pub fn encode(out: &mut (impl Write + Seek), frame: &Frame) -> std::io::Result<(
     }
     if !frame.sample_counts.is_empty() {
         channels.push(AnyChannel::new("samples", FlatSamples::U32(frame.sample_counts.clone())));
+    }
+    for plane in &frame.planes {
+        let samples = FlatSamples::F32(plane.samples.clone());
+        channels.push(AnyChannel::new(Text::from(plane.name.as_str()), samples));
     }
     let software_name = Some(Text::from(concat!("snell ", env!("CARGO_PKG_VERSION"))));
     let mut attributes = LayerAttributes { software_name, ..LayerAttributes::default() };

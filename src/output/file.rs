@@ -80,6 +80,11 @@ impl Target {
         &self.path
     }
 
+    /// What it is written as.
+    pub fn format(&self) -> Format {
+        self.format
+    }
+
     /// Writes the picture as it is so far, under the temporary name.
     ///
     /// # Errors
@@ -223,7 +228,7 @@ mod tests {
             standard_error: vec![Rgb::gray(0.1); 4],
             radiance,
             sample_counts: vec![1; 4],
-            facts: Vec::new(),
+            ..Frame::default()
         }
     }
 

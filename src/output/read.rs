@@ -216,7 +216,7 @@ mod tests {
         let standard_error = vec![Rgb::gray(0.125); radiance.len()];
         let facts = vec![("passes".to_owned(), "7".to_owned())];
         let (height, sample_counts) = ((radiance.len() / 2) as u32, vec![7; radiance.len()]);
-        Frame { width: 2, height, radiance, standard_error, sample_counts, facts }
+        Frame { width: 2, height, radiance, standard_error, sample_counts, facts, planes: Vec::new() }
     }
 
     fn written(name: &str, frame: &Frame) -> (tempfile::TempDir, PathBuf) {

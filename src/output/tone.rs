@@ -11,7 +11,34 @@ pub enum Exposure {
     Auto,
 }
 
+impl std::fmt::Display for Exposure {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Ev(ev) => write!(out, "{ev}EV"),
+            Self::Auto => out.write_str("auto"),
+        }
+    }
+}
+
+impl std::str::FromStr for Exposure {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let ev = || text.strip_suffix("EV").unwrap_or(text).trim().parse::<f32>().ok();
+        match text {
+            "auto" => Ok(Self::Auto),
+            _ => match ev().filter(|ev| ev.abs() <= Self::MOST_STOPS) {
+                Some(ev) => Ok(Self::Ev(ev)),
+                None => Err("write `auto`, or stops such as `1.5EV` or `-2`, at most 100 of them".to_owned()),
+            },
+        }
+    }
+}
+
 impl Exposure {
+    /// Stops beyond which nothing but black or white is left of any picture.
+    const MOST_STOPS: f32 = 100.0;
+
     /// What brings radiance to the display: radiance times this is shown.
     pub fn factor(self, radiance: &[Rgb]) -> f32 {
         match self {
@@ -46,6 +73,11 @@ pub struct Display {
 }
 
 impl Display {
+    /// What a file tells of how its picture is meant to be shown: what [`Exposure`] and [`Tone`] are read back from.
+    pub fn facts(&self) -> [(String, String); 2] {
+        [("exposure".to_owned(), self.exposure.to_string()), ("tone".to_owned(), self.tone.name().to_owned())]
+    }
+
     /// Display values of linear radiance.
     pub fn develop(&self, radiance: &[Rgb]) -> Vec<[u8; 3]> {
         let factor = self.exposure.factor(radiance);
@@ -56,6 +88,24 @@ impl Display {
 }
 
 impl Tone {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Srgb, Self::Linear, Self::Reinhard, Self::Agx];
+
+    /// The name by which scenes know it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Srgb => "srgb",
+            Self::Linear => "linear",
+            Self::Reinhard => "reinhard",
+            Self::Agx => "agx",
+        }
+    }
+
+    /// The curve of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|tone| tone.name() == name)
+    }
+
     /// The display value in [0, 1] of an exposed linear colour.
     pub fn curve(self, color: Rgb) -> Rgb {
         let clamp = |c: Rgb| c.map(|x| x.clamp(0.0, 1.0));
@@ -127,11 +177,24 @@ mod tests {
 
     #[test]
     fn every_curve_rises_and_ends_at_the_display_s_range() {
-        for tone in [Tone::Srgb, Tone::Linear, Tone::Reinhard, Tone::Agx] {
+        for tone in Tone::ALL {
             let levels: Vec<f32> = (0..200).map(|i| tone.curve(Rgb::gray(0.02 * i as f32)).g).collect();
             assert!(levels.windows(2).all(|w| w[0] <= w[1] + 1e-6), "{tone:?}");
             assert!(levels.iter().all(|x| (0.0..=1.0).contains(x)), "{tone:?}");
             assert!(levels[0] < 0.01 && levels[199] > 0.7, "{tone:?}");
+        }
+    }
+
+    #[test]
+    fn what_a_file_tells_of_its_display_is_read_back() {
+        for exposure in [Exposure::Auto, Exposure::Ev(-2.5), Exposure::Ev(0.0)] {
+            assert_eq!(exposure.to_string().parse(), Ok(exposure));
+        }
+        for tone in Tone::ALL {
+            assert_eq!(Tone::named(tone.name()), Some(tone));
+        }
+        for wrong in ["", "bright", "nanEV", "1e9", "infEV"] {
+            assert!(wrong.parse::<Exposure>().is_err(), "{wrong}");
         }
     }
 

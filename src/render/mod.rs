@@ -20,8 +20,8 @@ pub mod texture;
 pub mod world;
 
 pub use driver::{
-    GatherRadius, HybridSettings, Method, Monitor, Outcome, PpmSettings, Progress, Settings, Stats, Stop,
-    StoppedBy, render,
+    GatherRadius, HybridSettings, Layers, Method, Monitor, Outcome, PpmSettings, Progress, Settings, Stats,
+    Stop, StoppedBy, layers, render,
 };
 pub use effects::Effects;
 pub use world::{Parts, World};

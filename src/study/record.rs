@@ -124,8 +124,8 @@ pub fn write_exr(path: &Path, picture: &Picture) -> Result<(), output::OutputErr
         height: picture.height,
         radiance: picture.radiance.clone(),
         standard_error: picture.standard_error.clone().unwrap_or_default(),
-        sample_counts: Vec::new(),
         facts: picture.facts.clone(),
+        ..Frame::default()
     };
     let mut target = Target::open(path)?;
     target.write(&frame, &Display { exposure: Exposure::Ev(0.0), tone: Tone::Srgb, floor: false })?;
