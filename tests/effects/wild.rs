@@ -26,7 +26,7 @@ pub fn scene(number: u64) -> String {
         let _ = writeln!(text, "environment {{ radiance: {sky} }}");
     }
     if wild.chance(2) {
-        let material = wild.material();
+        let material = wild.made_of_others(); // what is endless may not shine
         let _ = writeln!(text, "plane {{ y: -1.3m, material: {material} }}");
     }
     for _ in 0..1 + wild.random.below(5) {
