@@ -16,6 +16,7 @@ mod new;
 mod plan;
 mod progress;
 mod render;
+mod replay;
 mod sequence;
 mod session;
 mod study;

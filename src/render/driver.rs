@@ -3,15 +3,19 @@
 //! A pass is one camera sample a pixel. Its tiles are computed by all threads and merged in their order, so that the
 //! film holds the same bits for any number of threads, and it always holds whole passes.
 
+mod replay;
 mod stop;
 
 use super::camera::CameraRay;
 use super::film::{ErrorEstimate, Film, Region, Tile};
-use super::integrator::{Classic, ClassicSettings, Counters, Integrator, Pass, PathTracer, PhotonMapper};
+use super::integrator::{
+    Classic, ClassicSettings, Counters, Integrator, Pass, PathTracer, PhotonMapper, Witness,
+};
 use super::sampler::Dim;
 use super::world::World;
 use crate::math::{Rgb, Vec2};
 use rayon::prelude::*;
+pub use replay::{Replay, replay};
 use std::time::Instant;
 use stop::Stopping;
 
@@ -234,18 +238,28 @@ fn render_tiles<I: Integrator>(
 
 /// One sample for every pixel of a tile.
 fn render_tile<I: Integrator>(integrator: &I, world: &World, region: Region, pass: Pass) -> (Tile, Counters) {
-    let camera = &world.camera;
     let mut counters = Counters::default();
-    let sample = |[x, y]: [u32; 2]| {
-        let sampler = pass.camera_sampler(u64::from(y) << 32 | u64::from(x));
-        let u_lens = if camera.has_lens() { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
-        let Some(CameraRay { ray, weight }) = camera.ray([x, y], sampler.get_2d(Dim::Filter), u_lens) else {
-            return Rgb::BLACK;
-        };
-        let radiance = integrator.radiance(ray, &sampler, &mut counters);
-        // What is no radiance stays none, whatever it weighs: the film counts it.
-        if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
-    };
-    let samples = region.pixels().map(sample).collect();
+    let samples =
+        region.pixels().map(|pixel| sample(integrator, world, pixel, pass, &mut counters, &mut ())).collect();
     (Tile { region, samples }, counters)
+}
+
+/// What a pass sees through a pixel; not a number where that is no radiance.
+fn sample<I: Integrator>(
+    integrator: &I,
+    world: &World,
+    [x, y]: [u32; 2],
+    pass: Pass,
+    counters: &mut Counters,
+    witness: &mut impl Witness,
+) -> Rgb {
+    let camera = &world.camera;
+    let sampler = pass.camera_sampler(u64::from(y) << 32 | u64::from(x));
+    let u_lens = if camera.has_lens() { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
+    let Some(CameraRay { ray, weight }) = camera.ray([x, y], sampler.get_2d(Dim::Filter), u_lens) else {
+        return Rgb::BLACK;
+    };
+    let radiance = integrator.radiance(ray, &sampler, counters, witness);
+    // What is no radiance stays none, whatever it weighs: the film counts it.
+    if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
 }

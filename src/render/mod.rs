@@ -18,7 +18,7 @@ pub mod texture;
 pub mod world;
 
 pub use driver::{
-    GatherRadius, HybridSettings, Method, Monitor, Outcome, PpmSettings, Progress, Settings, Stats, Stop,
-    StoppedBy, render,
+    GatherRadius, HybridSettings, Method, Monitor, Outcome, PpmSettings, Progress, Replay, Settings, Stats,
+    Stop, StoppedBy, render, replay,
 };
 pub use world::{Parts, World};

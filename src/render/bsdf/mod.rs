@@ -239,6 +239,12 @@ impl Bsdf {
         !matches!(self.lobes(), [lobe] if !lobe.has_choice())
     }
 
+    /// The lobe from which [`Self::sample`] draws for `u_lobe`.
+    pub fn lobe_chosen(&self, wo: Vec3, u_lobe: f32) -> Option<Lobe> {
+        let (lobe, ..) = self.choose(self.view(wo)?.wo, u_lobe)?;
+        Some(self.lobes[lobe])
+    }
+
     /// The value for a pair of directions times `|cos θi|`, per steradian; zero for specular lobes.
     ///
     /// The cosine is that of the shading normal: what a photon of flux Φ per area gives off is `eval · Φ / |wi · n|`.

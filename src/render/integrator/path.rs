@@ -2,7 +2,7 @@
 //!
 //! It may leave caustics to photons: each way of light then belongs to one of the two, see [`Caustics`].
 
-use super::{Counters, Integrator, Pass};
+use super::{Counters, End, Event, Integrator, Pass, Witness};
 use crate::math::{Ray, Rgb, Vec3};
 use crate::render::bsdf::{Bsdf, BsdfSample, MaterialId, Transport};
 use crate::render::driver::HybridSettings;
@@ -67,7 +67,13 @@ impl Integrator for PathTracer<'_> {
         self.caustics.as_ref().map_or(0.0, Caustics::blur)
     }
 
-    fn radiance(&self, mut ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+    fn radiance<W: Witness>(
+        &self,
+        mut ray: Ray,
+        sampler: &Sampler,
+        counters: &mut Counters,
+        witness: &mut W,
+    ) -> Rgb {
         let materials = &self.world.materials;
         let mut radiance = Rgb::BLACK;
         let mut beta = Rgb::WHITE;
@@ -81,29 +87,44 @@ impl Integrator for PathTracer<'_> {
             // Find the next vertex, or take what the sky sends and stop.
             counters.rays += 1;
             let Some(hit) = self.world.closest_hit(&ray) else {
-                return radiance + beta * self.sky(ray.d, &last);
+                let added = beta * self.sky(ray.d, &last);
+                witness.note(|| Event::Sky { dir: ray.d, added });
+                return radiance + added;
             };
             let surface = self.world.interaction(&ray, &hit);
             let wo = -ray.d;
             beta *= media.transmittance(hit.t, materials);
             footprint += angle * hit.t;
+            witness.note(|| Event::Vertex { surface, wo, t: hit.t, beta });
 
             // Add light emitted here, then light straight from the lamps.
-            radiance += beta * self.emitted(&surface, wo, &last);
+            let added = beta * self.emitted(&surface, wo, &last);
+            witness.note(|| Event::Emitted { added });
+            radiance += added;
             if depth + 1 == self.max_depth {
+                witness.note(|| Event::Ended(End::Depth));
                 break;
             }
             let bsdf = self.world.bsdf_between(&surface, wo, &media);
             let vertex = Vertex { surface: &surface, bsdf: &bsdf, wo, depth, after_wide };
+            witness.note(|| Event::Lobes(bsdf.lobes().to_vec()));
             if bsdf.is_smooth() {
-                radiance += beta * self.direct(&vertex, &media, sampler, counters);
+                let added = beta * self.direct(&vertex, &media, sampler, counters, witness);
+                witness.note(|| Event::Lit { added });
+                radiance += added;
                 if let Some(caustics) = &self.caustics {
-                    radiance += beta * caustics.radiance(&surface, &bsdf, wo, depth + 1, footprint);
+                    let added = beta * caustics.radiance(&surface, &bsdf, wo, depth + 1, footprint);
+                    witness.note(|| Event::Photons { added });
+                    radiance += added;
                 }
             }
 
             // Follow one direction onwards.
-            let Some(next) = vertex.sample_bsdf(sampler) else { break };
+            let Some(next) = vertex.sample_bsdf(sampler) else {
+                witness.note(|| Event::Ended(End::Absorbed));
+                break;
+            };
+            witness.note(|| vertex.scattered(&next, sampler));
             beta *= next.weight;
             eta_scale *= next.eta * next.eta;
             ray = surface.spawn(next.wi);
@@ -130,6 +151,7 @@ impl Integrator for PathTracer<'_> {
             let Some(survival) =
                 roulette(worth, depth, next.specular, || sampler.get_1d(Dim::Roulette(depth)))
             else {
+                witness.note(|| Event::Ended(End::Roulette));
                 break;
             };
             beta /= survival;
@@ -188,7 +210,14 @@ impl PathTracer<'_> {
     }
 
     /// What one light sends straight to a vertex and on to the viewer, weighed against finding it by the bsdf.
-    fn direct(&self, vertex: &Vertex, media: &Media, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+    fn direct(
+        &self,
+        vertex: &Vertex,
+        media: &Media,
+        sampler: &Sampler,
+        counters: &mut Counters,
+        witness: &mut impl Witness,
+    ) -> Rgb {
         let (world, depth) = (self.world, vertex.depth);
         let (u_choice, u) = (sampler.get_2d(Dim::LightChoice(depth)), sampler.get_2d(Dim::Light(depth)));
         let Some(drawn) = world.lights.sample_li(&world.geometry, &vertex.viewpoint(), u_choice, u) else {
@@ -196,11 +225,22 @@ impl PathTracer<'_> {
         };
         let (value, pdf_bsdf) = self.eval_pdf(vertex, Source::of(&drawn), drawn.wi);
         let mut arriving = value * drawn.radiance;
+        let told = |blocked| Event::Light {
+            wi: drawn.wi,
+            distance: drawn.distance(),
+            arriving: value * drawn.radiance,
+            pdf: drawn.pdf,
+            pdf_bsdf,
+            blocked,
+        };
         if arriving.is_black() {
+            witness.note(|| told(false));
             return Rgb::BLACK;
         }
         counters.rays += 1;
-        if world.any_hit(&drawn.shadow_ray(vertex.surface)) {
+        let blocked = world.any_hit(&drawn.shadow_ray(vertex.surface));
+        witness.note(|| told(blocked));
+        if blocked {
             return Rgb::BLACK;
         }
         let weight = if drawn.delta { 1.0 } else { mis_weight(drawn.pdf, pdf_bsdf) };
@@ -224,8 +264,17 @@ impl Vertex<'_> {
     /// Draws the direction in which the path goes on.
     fn sample_bsdf(&self, sampler: &Sampler) -> Option<BsdfSample> {
         let u = sampler.get_2d(Dim::Bsdf(self.depth));
-        let u_lobe = if self.bsdf.has_choice() { sampler.get_1d(Dim::Lobe(self.depth)) } else { 0.0 };
-        self.bsdf.sample(self.wo, u, u_lobe, Transport::Radiance)
+        self.bsdf.sample(self.wo, u, self.u_lobe(sampler), Transport::Radiance)
+    }
+
+    fn u_lobe(&self, sampler: &Sampler) -> f32 {
+        if self.bsdf.has_choice() { sampler.get_1d(Dim::Lobe(self.depth)) } else { 0.0 }
+    }
+
+    /// What is told of a drawn direction.
+    fn scattered(&self, next: &BsdfSample, sampler: &Sampler) -> Event {
+        let lobe = self.bsdf.lobe_chosen(self.wo, self.u_lobe(sampler));
+        Event::Scattered { lobe, wi: next.wi, weight: next.weight, pdf: next.pdf, through: next.through }
     }
 
     /// Whether a drawn direction counts as that of a sharp lobe, and by what to multiply its weight then.

@@ -9,9 +9,9 @@
 //! photon is ever gathered through the lobe that led there.
 
 use super::path::roulette;
-use super::{Counters, Integrator, Pass};
+use super::{Counters, End, Event, Integrator, Pass, Witness};
 use crate::math::{Ray, Rgb};
-use crate::render::bsdf::Transport;
+use crate::render::bsdf::{BsdfSample, Transport};
 use crate::render::driver::PpmSettings;
 use crate::render::media::Media;
 use crate::render::photon::{Gather, PhotonMap, Schedule, gathers, trace_photons};
@@ -48,7 +48,13 @@ impl Integrator for PhotonMapper<'_> {
         self.schedule.shrunk()
     }
 
-    fn radiance(&self, mut ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+    fn radiance<W: Witness>(
+        &self,
+        mut ray: Ray,
+        sampler: &Sampler,
+        counters: &mut Counters,
+        witness: &mut W,
+    ) -> Rgb {
         let mut radiance = Rgb::BLACK;
         let mut beta = Rgb::WHITE;
         let mut media = Media::start(&self.world.materials, sampler);
@@ -58,15 +64,22 @@ impl Integrator for PhotonMapper<'_> {
             // Find the next vertex, or take what the sky sends and stop.
             counters.rays += 1;
             let Some(hit) = self.world.closest_hit(&ray) else {
-                return radiance + beta * self.world.lights.sky(ray.d).0;
+                let added = beta * self.world.lights.sky(ray.d).0;
+                witness.note(|| Event::Sky { dir: ray.d, added });
+                return radiance + added;
             };
             let surface = self.world.interaction(&ray, &hit);
             let wo = -ray.d;
             beta *= media.transmittance(hit.t, &self.world.materials);
 
+            witness.note(|| Event::Vertex { surface, wo, t: hit.t, beta });
+
             // Add light emitted here, then light that photons brought.
-            radiance += beta * self.world.emitted(&surface, wo);
+            let added = beta * self.world.emitted(&surface, wo);
+            witness.note(|| Event::Emitted { added });
+            radiance += added;
             let bsdf = self.world.bsdf_between(&surface, wo, &media);
+            witness.note(|| Event::Lobes(bsdf.lobes().to_vec()));
             let rough = bsdf.only(gathers);
             if !rough.lobes().is_empty() {
                 let gather = Gather {
@@ -74,13 +87,22 @@ impl Integrator for PhotonMapper<'_> {
                     k: self.settings.k.max(2) as usize,
                     max_depth: self.max_depth - depth, // this vertex belongs to both paths
                 };
-                radiance += beta * gather.radiance(&self.map, &surface, &rough, wo);
+                let added = beta * gather.radiance(&self.map, &surface, &rough, wo);
+                witness.note(|| Event::Photons { added });
+                radiance += added;
             }
 
             // Follow one sharp reflection onwards.
             let sharp = bsdf.only(|lobe| !gathers(lobe));
             let (u, u_lobe) = (sampler.get_2d(Dim::Bsdf(depth)), sampler.get_1d(Dim::Lobe(depth)));
-            let Some(next) = sharp.sample(wo, u, u_lobe, Transport::Radiance) else { break };
+            let Some(next) = sharp.sample(wo, u, u_lobe, Transport::Radiance) else {
+                witness.note(|| Event::Ended(End::Absorbed));
+                break;
+            };
+            witness.note(|| {
+                let BsdfSample { wi, weight, pdf, through, .. } = next;
+                Event::Scattered { lobe: sharp.lobe_chosen(wo, u_lobe), wi, weight, pdf, through }
+            });
             beta *= next.weight;
             eta_scale *= next.eta * next.eta;
             ray = surface.spawn(next.wi);
@@ -91,7 +113,10 @@ impl Integrator for PhotonMapper<'_> {
             // End dim paths early; the survivors carry their weight.
             let worth = beta.max_component() * eta_scale;
             let u = || sampler.get_1d(Dim::Roulette(depth));
-            let Some(survival) = roulette(worth, depth, next.specular, u) else { break };
+            let Some(survival) = roulette(worth, depth, next.specular, u) else {
+                witness.note(|| Event::Ended(End::Roulette));
+                break;
+            };
             beta /= survival;
         }
         radiance
