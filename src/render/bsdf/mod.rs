@@ -9,6 +9,7 @@ mod conductor;
 mod dielectric;
 mod dispersion;
 mod fresnel;
+mod ground;
 mod lobe;
 mod material;
 mod mirror;
