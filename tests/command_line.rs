@@ -100,3 +100,58 @@ fn doc_explains_words_and_scenes() {
     assert!(exit == 0 && scene.contains("frame: int = 0 in 0..10"), "{scene}");
     assert!(scene.contains("for_frame(i: int) -> length") && scene.contains("sizes: a list"), "{scene}");
 }
+
+/// A ball of glass on a floor, and a lamp so strong that what it sends to the floor cannot be held in a number.
+fn glare() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let scene = "snell 1
+param watts: number = 60
+camera wide { position: (0m, 1m, 4m), look_at: (0m, 0m, 0m), film: { size: 8 x 8 } }
+camera near { position: (0m, 1m, 2m), look_at: (0m, 0m, 1m), fov: 20deg, film: { size: 8 x 8 } }
+light point { position: (0m, 5cm, 1m), power: watts * 1W }
+let clear = glass { ior: 1.5 }
+sphere { radius: 50cm, material: clear, transform: translate(0m, 50cm, 0m) }
+plane { y: 0m, material: diffuse { color: #808080 } }
+render { method: pt, depth: 6 }
+";
+    fs::write(folder.path().join("s.snell"), scene).expect("the scene can be written");
+    folder
+}
+
+#[test]
+fn a_pixel_tells_every_vertex_of_its_paths() {
+    let folder = glare();
+    let run = |args: &[&str]| snell(folder.path(), &[&["render", "s.snell"], args].concat());
+    let output = run(&["--pixel", "4,3", "--sample", "2"]);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(code(&output), 0, "{}", errors(&output));
+    for word in [
+        "pixel 4,3 sample 2: rgb(",
+        "s.snell:7:1 (sphere), material `clear` (s.snell:6:13)",
+        "clear boundary",
+    ] {
+        assert!(said.contains(word), "no {word:?} in {said}");
+    }
+    let all = run(&["--pixel", "4,3", "--passes", "3"]);
+    let all = String::from_utf8_lossy(&all.stdout);
+    assert_eq!(all.matches("pixel 4,3 sample ").count(), 3, "{all}");
+    assert!(all.ends_with(&*said), "a sample alone is what it is among others");
+    assert!(!folder.path().join("s.png").exists());
+    assert_eq!(code(&run(&["--pixel", "8,3"])), 2);
+    assert_eq!(code(&run(&["--sample", "8"])), 2);
+    assert_eq!(code(&run(&["--pixel", "4,3", "-o", "s.png"])), 2);
+}
+
+#[test]
+fn a_sample_that_is_not_a_number_names_the_command_that_replays_it() {
+    let folder = glare();
+    let args = ["render", "s.snell", "--set", "watts=3e38", "--camera", "near", "--passes", "1"];
+    let output = snell(folder.path(), &args);
+    let said = errors(&output);
+    let command = said.lines().find_map(|line| line.trim().strip_prefix("snell ")).expect(&said);
+    assert!(command.starts_with("render s.snell --set watts=3e38 --camera near --pixel "), "{command}");
+    let replayed = snell(folder.path(), &command.split(' ').collect::<Vec<_>>());
+    let told = String::from_utf8_lossy(&replayed.stdout);
+    assert!(told.contains("rgb(NaN, NaN, NaN)") && told.contains("inf"), "{told}");
+    assert!(told.contains("s.snell:8:1 (plane)"), "{told}");
+}

@@ -154,8 +154,8 @@ fn worlds_of_finite_variance() -> Vec<(&'static str, Parts)> {
     ]
 }
 
-#[test]
-fn hybrid_and_path_tracing_agree_quarter_by_quarter() {
+/// A hard case of `hard_cases/g_photons.rs`.
+pub fn hybrid_and_path_tracing_agree_quarter_by_quarter() {
     for (name, parts) in worlds_of_finite_variance() {
         assert_same(name, parts, (Method::Pt, 32));
     }
@@ -206,8 +206,8 @@ fn endless_floor() -> Solid {
     Solid { kind: SolidKind::Plane, world_from_object, ..sphere(Vec3::ZERO, 1.0, 0) }
 }
 
-#[test]
-fn without_caustics_hybrid_is_path_tracing_to_the_bit() {
+/// A hard case of `hard_cases/g_photons.rs`.
+pub fn without_caustics_hybrid_is_path_tracing_to_the_bit() {
     let mut uniform = table(diffuse(0.7));
     uniform.environment =
         Some(Environment { radiance: EnvironmentRadiance::Constant(Rgb::WHITE), scale: 1.0, rotation: 0.0 });
@@ -229,8 +229,8 @@ fn any_number_of_threads_renders_the_same_bits() {
     assert_eq!(with(1), with(2));
 }
 
-#[test]
-fn aimed_photons_bring_to_the_targets_what_all_photons_bring() {
+/// A hard case of `hard_cases/g_photons.rs`.
+pub fn aimed_photons_bring_to_the_targets_what_all_photons_bring() {
     let lights = [
         Light::Point { p: Vec3::new(-0.5, 2.4, -0.3), intensity: Rgb::gray(5.0), falloff: Falloff::PHYSICAL },
         // Within one of the balls.

@@ -46,8 +46,8 @@ fn awkward_photons(i: usize, random: &mut Random) -> Vec<Photon> {
     (0..count).map(|_| photon(place(random.point()))).collect()
 }
 
-#[test]
-fn the_nearest_photons_are_those_that_trying_all_finds() {
+/// A hard case of `hard_cases/g_photons.rs`.
+pub fn the_nearest_photons_are_those_that_trying_all_finds() {
     let mut random = Random(1);
     for i in 0..189 {
         let photons = awkward_photons(i, &mut random);
@@ -240,8 +240,8 @@ fn any_number_of_threads_renders_the_same_bits() {
     assert_eq!(with(1), with(2));
 }
 
-#[test]
-fn no_light_comes_through_a_thin_wall() {
+/// A hard case of `hard_cases/g_photons.rs`.
+pub fn no_light_comes_through_a_thin_wall() {
     // A lamp over a plate; below the plate, much nearer than the radius, a floor that must stay dark.
     let mut parts = empty(camera(Vec3::new(0.0, -1.0, 0.0), Vec3::Y, 0.1, 8));
     parts.materials = vec![diffuse(0.5)];

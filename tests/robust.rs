@@ -35,8 +35,8 @@ fn a_hundred_thousand_mutated_scenes_end_in_a_report() {
     });
 }
 
-#[test]
-fn hostile_texts_end_in_a_report_soon() {
+/// A hard case of `hard_cases/h_film.rs`.
+pub fn hostile_texts_end_in_a_report_soon() {
     let files = Memory::default();
     let hostile = [
         String::new(),

@@ -22,6 +22,7 @@ mod plan;
 mod plan_page;
 mod progress;
 mod render;
+mod replay;
 mod sequence;
 mod session;
 mod study;

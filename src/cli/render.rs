@@ -6,6 +6,7 @@ use super::layers;
 use super::lossy::{self, Loss};
 use super::pilot::BYTES_PER_PIXEL;
 use super::progress::Bar;
+use super::replay;
 use super::sequence;
 use super::session::Session;
 use super::summary::Summary;
@@ -26,7 +27,7 @@ use std::time::Instant;
 pub struct RenderArgs {
     /// The scene; `-` is standard input
     #[arg(value_name = "SCENE")]
-    scene: PathBuf,
+    pub(super) scene: PathBuf,
     /// Write the picture here: .png, .exr, .hdr or .ppm; may be repeated [default: the scene's name with .png]. With
     /// `--frames`, `{frame:04}` in it stands for the number with at least four digits; without, `.0017` goes before the
     /// extension
@@ -40,10 +41,10 @@ pub struct RenderArgs {
     pub(super) scene_args: SceneArgs,
     /// Look through this camera
     #[arg(long, value_name = "NAME")]
-    camera: Option<String>,
+    pub(super) camera: Option<String>,
     /// How light is simulated [default: as the scene says]
     #[arg(long, value_name = "METHOD")]
-    method: Option<Method>,
+    pub(super) method: Option<Method>,
     /// Stop after this many passes, one camera sample a pixel each
     #[arg(long, visible_alias = "spp", value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     passes: Option<u32>,
@@ -55,16 +56,22 @@ pub struct RenderArgs {
     error: Option<f64>,
     /// The size of the picture in pixels, such as `640x480`
     #[arg(long, value_name = "WxH", value_parser = args::size, allow_hyphen_values = true)]
-    size: Option<(u32, u32)>,
+    pub(super) size: Option<(u32, u32)>,
     /// Render only this part: column and row of its upper left corner, width and height
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
     crop: Option<Region>,
+    /// Render nothing but trace this pixel, column and row: every vertex of its paths with the lines of what they met
+    #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with_all = ["frames", "outputs", "report", "crop"])]
+    pixel: Option<[u32; 2]>,
+    /// Of the pixel, trace only this sample, counted from 0 as passes are
+    #[arg(long, value_name = "N", requires = "pixel", value_parser = clap::value_parser!(u32).range(..u32::MAX as i64))]
+    pub(super) sample: Option<u32>,
     /// How many threads [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// The seed of all random numbers
     #[arg(long, value_name = "N", value_parser = args::seed, allow_hyphen_values = true)]
-    seed: Option<u64>,
+    pub(super) seed: Option<u64>,
     /// What an .exr holds beside colour, its standard error and the number of samples; may be repeated, `all` or `none`
     /// [default: albedo,normal,depth]
     #[arg(long, value_name = "LAYER", value_delimiter = ',')]
@@ -100,6 +107,9 @@ pub fn run(args: &RenderArgs) -> Exit {
         Ok(pool) => pool,
         Err(error) => return fail(format_args!("threads cannot be started: {error}")),
     };
+    if let Some(pixel) = args.pixel {
+        return replay::run(args, &mut session, pixel, &pool);
+    }
     match args.frames {
         Some(frames) => sequence::render(args, &mut session, frames, &pool),
         None => {
@@ -115,6 +125,8 @@ pub fn run(args: &RenderArgs) -> Exit {
 /// A picture that was made, and all that is known about it.
 pub struct Rendered {
     scene: String,
+    /// The command that renders it, but for what the picture does not depend on.
+    command: String,
     files: Vec<String>,
     ready: Ready,
     outcome: Outcome,
@@ -129,6 +141,7 @@ impl Rendered {
             method: &self.ready.lowered.method,
             outcome: &self.outcome,
             settings: &self.ready.settings,
+            command: &self.command,
             scene_hash: &self.ready.scene_hash,
             loss: self.ready.loss.as_ref(),
             compile_seconds: self.ready.compile_seconds,
@@ -159,16 +172,7 @@ pub fn one(
     mut targets: Vec<Target>,
     pool: &rayon::ThreadPool,
 ) -> Result<Rendered, Exit> {
-    let start = Instant::now();
-    let ready = session.compile().and_then(|checked| {
-        let camera = session.camera(&checked, args.camera.as_deref())?.clone();
-        pool.install(|| make_ready(checked, camera, args, session, start))
-    });
-    let good = session.is_good();
-    if args.frames.is_none() || !good {
-        session.report_alone(&args.messages); // warnings of frames were told when they were checked
-    }
-    let ready = ready.filter(|_| good).ok_or(Exit::SceneWrong)?;
+    let ready = compile(args, session, pool)?;
     ready.reason_not_to_start(args, &targets).map_err(fail)?;
 
     interrupt::listen();
@@ -176,7 +180,8 @@ pub fn one(
     let outcome = pool.install(|| crate::render::render(&ready.lowered.world, &ready.settings, &bar));
     bar.finish();
 
-    let mut rendered = Rendered { scene: session.name.clone(), files: Vec::new(), ready, outcome };
+    let (scene, command) = (session.name.clone(), replay::command(args));
+    let mut rendered = Rendered { scene, command, files: Vec::new(), ready, outcome };
     if rendered.outcome.stats.passes == 0 && rendered.outcome.stopped_by == StoppedBy::Time {
         return Err(fail(
             "time was up among the photons of the first pass, and nothing was written; allow more time or fewer photons",
@@ -191,12 +196,30 @@ pub fn one(
     Ok(rendered)
 }
 
+/// Compiles a scene and builds its world. What goes wrong is said.
+pub(super) fn compile(
+    args: &RenderArgs,
+    session: &mut Session,
+    pool: &rayon::ThreadPool,
+) -> Result<Ready, Exit> {
+    let start = Instant::now();
+    let ready = session.compile().and_then(|checked| {
+        let camera = session.camera(&checked, args.camera.as_deref())?.clone();
+        pool.install(|| make_ready(checked, camera, args, session, start))
+    });
+    let good = session.is_good();
+    if args.frames.is_none() || !good {
+        session.report_alone(&args.messages); // warnings of frames were told when they were checked
+    }
+    ready.filter(|_| good).ok_or(Exit::SceneWrong)
+}
+
 /// A scene ready to be rendered.
-struct Ready {
+pub(super) struct Ready {
     plan: Plan,
-    lowered: Lowered,
+    pub(super) lowered: Lowered,
     camera: ir::Camera,
-    settings: Settings,
+    pub(super) settings: Settings,
     /// What the scene's texts and parameters amount to.
     scene_hash: String,
     /// Every file that the scene is made of.
@@ -439,6 +462,13 @@ pub fn write_report(args: &RenderArgs, facts: &serde_json::Value) -> Result<(), 
         Some(path) => crate::output::replace(path, format!("{facts:#}\n").as_bytes()),
         None => Ok(()),
     }
+}
+
+/// `X,Y`.
+fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let place =
+        text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    place.ok_or_else(|| "write COLUMN,ROW from the upper left corner, such as `120,45`".to_owned())
 }
 
 /// `X,Y,W,H`.

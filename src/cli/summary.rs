@@ -3,6 +3,7 @@
 use super::lossy::Loss;
 use super::progress::{duration, percent};
 use crate::plan::Plan;
+use crate::render::film::BadSample;
 use crate::render::{GatherRadius, Method, Outcome, Settings, Stop, StoppedBy};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -11,6 +12,8 @@ use std::fmt::Write;
 pub struct Summary<'a> {
     /// The scene, as the user named it.
     pub scene: &'a str,
+    /// The command that renders it, but for what the picture does not depend on.
+    pub command: &'a str,
     /// The files that were written.
     pub files: &'a [String],
     /// What was planned.
@@ -63,18 +66,22 @@ impl Summary<'_> {
             let _ = writeln!(out, "  lossy   without {names}: about {share:.1} % of the light is missing");
         }
         if stats.bad_samples > 0 {
-            let places = self.outcome.film.bad_samples().iter();
-            let places: Vec<String> = places
-                .map(|bad| format!("({}, {}) in pass {}", bad.pixel[0], bad.pixel[1], bad.pass))
-                .collect();
+            let bad = self.outcome.film.bad_samples();
+            let places: Vec<String> = bad.iter().map(|bad| self.replay(bad)).collect();
             let _ = writeln!(
                 out,
-                "  trouble {} samples were not numbers and count as 0: pixels {}",
+                "  trouble {} samples were not numbers and count as 0; what happened on the first:\n          {}",
                 count(stats.bad_samples),
-                places.join(", ")
+                places.join("\n          ")
             );
         }
         out
+    }
+
+    /// The command that shows how a sample came about.
+    fn replay(&self, bad: &BadSample) -> String {
+        let ([x, y], pass) = (bad.pixel, bad.pass);
+        format!("{} --pixel {x},{y} --sample {pass}", self.command)
     }
 
     /// For people, on one line.
@@ -124,7 +131,7 @@ impl Summary<'_> {
             "stored_photons": stats.counters.stored_photons,
             "bad_samples": stats.bad_samples,
             "bad_places": self.outcome.film.bad_samples().iter().map(|bad| json!({
-                "pixel": bad.pixel, "pass": bad.pass,
+                "pixel": bad.pixel, "pass": bad.pass, "replay": self.replay(bad),
             })).collect::<Vec<_>>(),
             "is_exact": self.plan.is_exact,
             "error": self.outcome.error.map(|e| json!({

@@ -13,7 +13,7 @@ use crate::render::bsdf::{self, Glass, Material, Principled, Relief};
 use crate::render::light::{Environment, EnvironmentRadiance as Radiance};
 use crate::render::shape::MaterialId;
 use crate::render::texture::{Image, Texture, TextureId};
-use crate::source::Files;
+use crate::source::{Files, Span};
 use rustc_hash::FxHashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -34,6 +34,28 @@ pub struct Materials<'a> {
     images: FxHashMap<(PathBuf, Reading), Option<Arc<Image>>>,
     gray: Option<MaterialId>,
     failed: Vec<LoadError>,
+    origins: FxHashMap<MaterialId, Origin>,
+}
+
+/// Where a material was defined.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Origin {
+    /// The name that the scene or a mesh file gives it.
+    pub name: Option<String>,
+    /// Where the scene does so.
+    pub span: Option<Span>,
+}
+
+/// What was lowered, and what could not be.
+pub struct Finished {
+    /// The engine's materials.
+    pub materials: Vec<Material>,
+    /// Its textures.
+    pub textures: Vec<Texture>,
+    /// Pictures that could not be decoded.
+    pub failed: Vec<LoadError>,
+    /// Where materials were defined, but for those that only lights have.
+    pub origins: FxHashMap<MaterialId, Origin>,
 }
 
 impl<'a> Materials<'a> {
@@ -50,12 +72,14 @@ impl<'a> Materials<'a> {
             images: FxHashMap::default(),
             gray: None,
             failed: Vec::new(),
+            origins: FxHashMap::default(),
         }
     }
 
-    /// All materials and textures, and the pictures that could not be decoded.
-    pub fn finish(self) -> (Vec<Material>, Vec<Texture>, Vec<LoadError>) {
-        (self.materials, self.textures, self.failed)
+    /// All of it.
+    pub fn finish(self) -> Finished {
+        let Self { materials, textures, failed, origins, .. } = self;
+        Finished { materials, textures, failed, origins }
     }
 
     /// Adds a material that the scene does not name.
@@ -96,6 +120,8 @@ impl<'a> Materials<'a> {
         }
         let lowered = self.lower(handle, radiance);
         let id = self.add(lowered);
+        let written = &self.loaded.scene.materials[handle];
+        self.origins.insert(id, Origin { name: written.name.clone(), span: Some(written.span) });
         if !self.emits(handle) {
             self.by_handle.insert(handle.index(), id);
         }

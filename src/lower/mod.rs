@@ -26,15 +26,17 @@ use crate::plan::{Effect, Plan};
 use crate::render::camera::Camera;
 use crate::render::geometry::Shapes;
 use crate::render::integrator::{ClassicSettings, Shading};
-use crate::render::shape::SourceId;
+use crate::render::shape::{MaterialId, SourceId};
 use crate::render::world::{Parts, World};
 use crate::render::{GatherRadius, HybridSettings, Method, PpmSettings};
 use crate::source::{Files, Span};
 pub use effects::can_leave_out;
 pub use error::LowerError;
 use instance::Instances;
-use material::Materials;
+pub use material::Origin;
+use material::{Finished, Materials};
 pub use place::object_bounds;
+use rustc_hash::FxHashMap;
 
 /// A world, and what only the caller needs to know of the scene.
 pub struct Lowered {
@@ -44,6 +46,8 @@ pub struct Lowered {
     pub method: Method,
     /// Where each `SourceId` was written.
     pub sources: Vec<Span>,
+    /// Where materials were defined, but for those that only lights have.
+    pub materials: FxHashMap<MaterialId, Origin>,
     /// What was moved to the origin, in the scene's metres.
     pub center: DVec3,
 }
@@ -86,7 +90,7 @@ pub fn lower(
 
     let Lowering { materials, shapes, sources, .. } = lowering;
     let Shapes { meshes, shared, instances, solids } = shapes;
-    let (materials, textures, failed) = materials.finish();
+    let Finished { materials, textures, failed, origins } = materials.finish();
     let any_failed = !failed.is_empty();
     failed.into_iter().for_each(|error| problems.push(error));
     let camera = camera.filter(|_| !any_failed)?;
@@ -104,7 +108,7 @@ pub fn lower(
         camera,
         effects: effects::effects(plan),
     });
-    Some(Lowered { world, method, sources, center })
+    Some(Lowered { world, method, sources, materials: origins, center })
 }
 
 fn method(plan: &Plan, classic: &ir::Classic, camera: &camera::Seen) -> Method {

@@ -4,18 +4,22 @@
 //! film holds the same bits for any number of threads, and it always holds whole passes.
 
 mod layers;
+mod replay;
 mod stop;
 
 use super::camera::CameraRay;
 use super::effects::Effects;
 use super::film::{ErrorEstimate, Film, Region, Tile};
-use super::integrator::{Classic, ClassicSettings, Counters, Integrator, Pass, PathTracer, PhotonMapper};
+use super::integrator::{
+    Classic, ClassicSettings, Counters, Integrator, Pass, PathTracer, PhotonMapper, Witness,
+};
 use super::ledger;
 use super::sampler::{Dim, Sampler};
 use super::world::World;
 use crate::math::{Rgb, Vec2};
 pub use layers::{Layers, layers};
 use rayon::prelude::*;
+pub use replay::{Replay, replay};
 use std::time::Instant;
 use stop::Stopping;
 
@@ -276,32 +280,38 @@ fn render_tiles<I: Integrator>(
 fn render_tile<I: Integrator>(integrator: &I, world: &World, region: Region, pass: Pass) -> Done {
     let start = Instant::now();
     let mut counters = Counters::default();
-    let sample = |pixel: [u32; 2]| {
-        if world.is_watched {
-            ledger::begin_path();
-        }
-        let (sampler, ray) = camera_ray(world, pass, pixel);
-        let Some(CameraRay { ray, weight }) = ray else { return Rgb::BLACK };
-        let radiance = integrator.radiance(ray, &sampler, &mut counters);
-        if world.is_watched {
-            ledger::end_path(number(pixel), radiance);
-        }
-        // What is no radiance stays none, whatever it weighs: the film counts it.
-        if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
-    };
+    let sample = |pixel: [u32; 2]| sample(integrator, world, pixel, pass, &mut counters, &mut ());
     let samples = region.pixels().map(sample).collect();
     Done { tile: Tile { region, samples }, counters, seconds: start.elapsed().as_secs_f64() }
 }
 
+/// What a pass sees through a pixel; not a number where that is no radiance.
+fn sample<I: Integrator>(
+    integrator: &I,
+    world: &World,
+    pixel: [u32; 2],
+    pass: Pass,
+    counters: &mut Counters,
+    witness: &mut impl Witness,
+) -> Rgb {
+    if world.is_watched {
+        ledger::begin_path();
+    }
+    let (sampler, ray) = camera_ray(world, pass, pixel);
+    let Some(CameraRay { ray, weight }) = ray else { return Rgb::BLACK };
+    let radiance = integrator.radiance(ray, &sampler, counters, witness);
+    if world.is_watched {
+        ledger::end_path(pixel, radiance);
+    }
+    // What is no radiance stays none, whatever it weighs: the film counts it.
+    if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
+}
+
 /// The ray of a pixel in a pass, if its lens lets one through, and the numbers of its path.
 fn camera_ray(world: &World, pass: Pass, pixel: [u32; 2]) -> (Sampler, Option<CameraRay>) {
-    let sampler = pass.camera_sampler(number(pixel));
+    let [x, y] = pixel;
+    let sampler = pass.camera_sampler(u64::from(y) << 32 | u64::from(x));
     let blurs = world.effects.has(Effects::LENS_BLUR);
     let u_lens = if blurs { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
     (sampler, world.camera.ray(pixel, sampler.get_2d(Dim::Filter), u_lens))
-}
-
-/// Another number for each pixel.
-fn number([x, y]: [u32; 2]) -> u64 {
-    u64::from(y) << 32 | u64::from(x)
 }

@@ -20,8 +20,8 @@ pub mod texture;
 pub mod world;
 
 pub use driver::{
-    GatherRadius, HybridSettings, Layers, Method, Monitor, Outcome, PpmSettings, Progress, Settings, Stats,
-    Stop, StoppedBy, layers, render,
+    GatherRadius, HybridSettings, Layers, Method, Monitor, Outcome, PpmSettings, Progress, Replay, Settings,
+    Stats, Stop, StoppedBy, layers, render, replay,
 };
 pub use effects::Effects;
 pub use world::{Parts, World};

@@ -1,10 +1,10 @@
 //! Section A: rays against triangles, and the tree.
 
 use crate::support::*;
-use snell::math::{DVec3, Ray, Vec3};
+use snell::math::{Bounds, DVec3, Ray, Vec3};
 use snell::render::accel::build::{depth_limit, reference_limit};
 use snell::render::accel::{Items, partition};
-use snell::render::geometry::{Geometry, PrimId};
+use snell::render::geometry::{Geometry, Hit, PrimId};
 use snell::render::shape::Mesh;
 use snell::render::shape::triangle::{ShearedRay, TriangleBlock, cross_of_edges};
 use snell::source::Memory;
@@ -444,12 +444,14 @@ fn hard_case_12_scale_by_a_power_of_two_changes_no_bit() {
     }
 }
 
-/// Case 13: rays with NaN or infinity miss, and end. The naive walk would take NaN as it comes.
+/// Case 13: rays with NaN or infinity miss, and end. Whoever takes them as they come meets boxes: comparisons with NaN are
+/// false, and a box test that rejects by `enter > exit` rejects nothing then.
 #[test]
 fn hard_case_13_rays_that_are_not_numbers_miss() {
     let (positions, triangles) = sphere(20, 20, |_, _| 1.0);
     let geometry = scene(mesh(positions, triangles));
     let mut random = Random(113);
+    let mut met_by_naive = 0;
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for i in 0..6_000 {
             let mut ray = Ray::new(random.point(), random.direction());
@@ -459,8 +461,23 @@ fn hard_case_13_rays_that_are_not_numbers_miss() {
                 ray.d[i % 6 - 3] = bad;
             }
             assert!(geometry.closest_hit(&ray).is_none() && !geometry.any_hit(&ray), "{ray:?}");
+            met_by_naive += usize::from(rejecting_slab(&ray, geometry.bounds()));
         }
     }
+    assert!(met_by_naive > 1_000, "the naive test met the box only {met_by_naive} times");
+}
+
+/// Whether a ray meets a box, by rejection alone.
+fn rejecting_slab(ray: &Ray, bounds: Bounds) -> bool {
+    let (a, b) = ((bounds.min - ray.o) / ray.d, (bounds.max - ray.o) / ray.d);
+    let (mut enter, mut exit) = (0.0, f32::INFINITY);
+    for axis in 0..3 {
+        let (near, far) = if a[axis] > b[axis] { (b[axis], a[axis]) } else { (a[axis], b[axis]) };
+        enter = if near > enter { near } else { enter };
+        exit = if far < exit { far } else { exit };
+    }
+    let is_rejected = enter > exit;
+    !is_rejected
 }
 
 /// Case 14: geometry nested 40 deep at halving sizes, and a long line of triangles: the tree is no deeper than
@@ -523,7 +540,8 @@ fn hard_case_15_shadow_rays_agree_with_closest_hits_at_length() {
 }
 
 /// Case 16: nothing at all, and a single triangle; trees over awkward scenes are a law of their own
-/// (`the_tree_survives_awkward_scenes`).
+/// (`the_tree_survives_awkward_scenes`). In soups that are flat, who takes only hits within the rounded span of their cell
+/// loses some.
 #[test]
 fn hard_case_16_the_smallest_scenes() {
     let empty = Geometry::build(Vec::new(), Vec::new());
@@ -541,4 +559,58 @@ fn hard_case_16_the_smallest_scenes() {
         hits += usize::from(found.is_some());
     }
     assert!(hits > 100, "only {hits} rays hit");
+
+    // Soups flat in one axis: their cells have no thickness.
+    let mut lost_by_naive = 0;
+    for i in 0..24 {
+        let flatten = Vec3::ONE - Vec3::AXES[i % 3];
+        let count = [1, 3, 40, 300][i % 4];
+        let positions = (0..3 * count).map(|_| random.point() * flatten + Vec3::splat(0.1)).collect();
+        let soup = mesh(positions, (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect());
+        let (brute_force, strict) = (BruteForce::new(&soup), Walk::new(&soup, hasty_slab).strict());
+        let geometry = scene(soup);
+        for _ in 0..200 {
+            let o = random.point() * 3.0;
+            let ray = Ray::new(o, random.point() * flatten - o);
+            let expected = brute_force.closest_hit(&ray);
+            assert_eq!(bits(geometry.closest_hit(&ray)), expected, "{ray:?}");
+            lost_by_naive += usize::from(strict.closest_hit(&ray) != expected);
+        }
+    }
+    assert!(lost_by_naive > 100, "strict cells lose only {lost_by_naive} rays");
+}
+
+/// Hits of both builds of the walk that differ in a bit, of `count` aimed rays a mesh.
+fn hits_that_differ(count: usize) -> usize {
+    let whole =
+        |hit: Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.prim, hit.uv.to_array().map(f32::to_bits)));
+    let mut differ = 0;
+    for (_, mesh, center) in closed_meshes() {
+        let rays = aimed_rays(&mesh, center, count, 118);
+        let (fast, portable) = (scene(mesh.clone()), scene(mesh).without_simd());
+        let of = |ray: &&Ray| whole(fast.closest_hit(ray)) != whole(portable.closest_hit(ray));
+        differ += rays.iter().filter(of).count();
+    }
+    differ
+}
+
+/// Case 17: registers of vectors change no bit of a hit: one formula, its order written out, nothing contracted. The same
+/// edge function with a fused multiply-add, as a compiler may make of it, has other bits.
+#[test]
+fn hard_case_17_vector_registers_change_no_bit() {
+    assert_eq!(hits_that_differ(20_000), 0);
+    let mut random = Random(119);
+    let differ = (0..1_000).filter(|_| {
+        let (a, b) = (random.point(), random.point());
+        let (plain, fused) = (a.x * b.y - a.y * b.x, a.x.mul_add(b.y, -(a.y * b.x)));
+        plain.to_bits() != fused.to_bits()
+    });
+    assert!(differ.count() > 100, "contraction hardly shows");
+}
+
+/// Case 17 at length: 8 × 10⁶ rays.
+#[test]
+#[ignore = "takes a minute"]
+fn hard_case_17_vector_registers_change_no_bit_at_length() {
+    assert_eq!(hits_that_differ(1_000_000), 0);
 }

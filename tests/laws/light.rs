@@ -189,8 +189,8 @@ fn the_centre_of_a_sky_is_ahead_and_its_right_is_to_the_right() {
     assert!((turned.radiance(Vec3::NEG_X).r - 1.5).abs() < 1e-5);
 }
 
-#[test]
-fn photons_carry_the_power_of_their_light() {
+/// A hard case of `hard_cases/g_photons.rs`.
+pub fn photons_carry_the_power_of_their_light() {
     let mut parts = cornell(16, true);
     parts.lights = vec![
         Light::Point { p: Vec3::ONE, intensity: Rgb::gray(2.0), falloff: Falloff::PHYSICAL },

@@ -3,8 +3,9 @@
 mod choice;
 mod forks;
 mod lamps;
-mod light;
-mod scattering;
-mod statistics;
+pub mod light;
+mod replay;
+pub mod scattering;
+pub mod statistics;
 mod transport;
 pub mod worlds;

@@ -29,16 +29,16 @@ fn surface(ns: Vec3) -> SurfacePoint {
 }
 
 /// The bsdf of the first of some materials.
-fn bsdf(materials: &[Material]) -> Bsdf {
+pub fn bsdf(materials: &[Material]) -> Bsdf {
     Materials::new(materials.to_vec(), Vec::new()).bsdf(&surface(Vec3::Z))
 }
 
-fn phong(diffuse: f32, specular: f32, shininess: f32) -> Material {
+pub fn phong(diffuse: f32, specular: f32, shininess: f32) -> Material {
     Material::Phong { diffuse: gray(diffuse), specular: gray(specular), shininess }
 }
 
 /// White metal whose width of slopes is `alpha`.
-fn metal(alpha: f32) -> Material {
+pub fn metal(alpha: f32) -> Material {
     Material::Metal { f0: gray(1.0), edge: gray(1.0), roughness: gray(alpha.sqrt()) }
 }
 
@@ -87,7 +87,7 @@ fn passing_bsdfs() -> Vec<(&'static str, Bsdf)> {
 }
 
 /// Every way of scattering into more than one direction.
-fn smooth_bsdfs() -> Vec<(&'static str, Bsdf)> {
+pub fn smooth_bsdfs() -> Vec<(&'static str, Bsdf)> {
     let bent = Vec3::new(0.5, 0.2, 0.8).normalize();
     let copper = Material::Metal { f0: color(0.95, 0.64, 0.54), edge: gray(1.0), roughness: gray(0.5) };
     let dipping = Material::Metal { edge: color(1.0, 0.8, 0.7), f0: gray(0.5), roughness: gray(0.6) };
@@ -111,7 +111,7 @@ fn smooth_bsdfs() -> Vec<(&'static str, Bsdf)> {
 }
 
 /// Directions to the viewer: along the normal, slanted, grazing, and from behind.
-fn directions() -> [Vec3; 5] {
+pub fn directions() -> [Vec3; 5] {
     let at = |degrees: f32, z: f32| {
         let (sin, cos) = degrees.to_radians().sin_cos();
         Vec3::new(sin * 0.8, sin * 0.6, cos * z)
@@ -120,7 +120,7 @@ fn directions() -> [Vec3; 5] {
 }
 
 /// Pairs of random directions in the upper hemisphere.
-fn pairs(n: u32) -> impl Iterator<Item = (Vec3, Vec3)> {
+pub fn pairs(n: u32) -> impl Iterator<Item = (Vec3, Vec3)> {
     let up = |u: Vec2| {
         let w = snell::math::warp::square_to_uniform_sphere(u);
         Vec3::new(w.x, w.y, w.z.abs().max(1e-4)).normalize()
@@ -128,8 +128,8 @@ fn pairs(n: u32) -> impl Iterator<Item = (Vec3, Vec3)> {
     points(n).map(move |(u, v)| (up(u), up(Vec2::new(v, (7.0 * u.x + 3.0 * u.y).fract()))))
 }
 
-#[test]
-fn every_smooth_bsdf_draws_what_its_pdf_claims() {
+/// A hard case of `hard_cases/e_scattering.rs`.
+pub fn every_smooth_bsdf_draws_what_its_pdf_claims() {
     let n = 200_000;
     let bsdfs = smooth_bsdfs();
     let limit = significance(bsdfs.len() * directions().len());
@@ -157,8 +157,8 @@ fn every_smooth_bsdf_draws_what_its_pdf_claims() {
     }
 }
 
-#[test]
-fn every_bsdf_that_passes_light_draws_what_its_pdf_claims_on_both_sides() {
+/// A hard case of `hard_cases/e_scattering.rs`.
+pub fn every_bsdf_that_passes_light_draws_what_its_pdf_claims_on_both_sides() {
     let n = 200_000;
     let limit = significance(passing_bsdfs().len() * directions().len());
     for (name, bsdf) in passing_bsdfs() {
@@ -187,8 +187,8 @@ fn every_bsdf_that_passes_light_draws_what_its_pdf_claims_on_both_sides() {
     }
 }
 
-#[test]
-fn through_a_surface_scattering_is_reciprocal_up_to_the_square_of_the_index() {
+/// A hard case of `hard_cases/e_scattering.rs`.
+pub fn through_a_surface_scattering_is_reciprocal_up_to_the_square_of_the_index() {
     for (name, ior) in [("ground glass", 1.5_f32), ("frosted diamond", 2.4), ("ground pane", 1.0)] {
         let (_, bsdf) = passing_bsdfs().into_iter().find(|(known, _)| *known == name).expect("one of them");
         let square = |w: Vec3| if w.z > 0.0 { 1.0 } else { ior * ior };
@@ -220,8 +220,8 @@ fn the_weight_of_a_sample_is_value_over_density() {
     }
 }
 
-#[test]
-fn smooth_bsdfs_are_reciprocal_where_normals_are_real() {
+/// A hard case of `hard_cases/e_scattering.rs`.
+pub fn smooth_bsdfs_are_reciprocal_where_normals_are_real() {
     for (name, bsdf) in smooth_bsdfs().into_iter().filter(|(name, _)| !name.starts_with("bent")) {
         for (a, b) in pairs(10_000) {
             let (ab, ba) = (bsdf.eval(a, b).r / b.z, bsdf.eval(b, a).r / a.z);
@@ -262,7 +262,7 @@ fn no_light_passes_from_one_side_of_the_geometric_normal_to_the_other() {
 }
 
 /// The mean weight of `n` draws.
-fn albedo(bsdf: &Bsdf, wo: Vec3, n: u32, transport: Transport) -> Rgb {
+pub fn albedo(bsdf: &Bsdf, wo: Vec3, n: u32, transport: Transport) -> Rgb {
     let weights = points(n).filter_map(|(u, u_lobe)| Some(bsdf.sample(wo, u, u_lobe, transport)?.weight));
     weights.fold(Rgb::BLACK, |sum, weight| sum + weight) / n as f32
 }
@@ -287,8 +287,8 @@ fn nothing_reflects_more_than_it_receives() {
 /// Widths of microfacet slopes, from below the one that counts as smooth to the roughest.
 const ALPHAS: [f32; 7] = [1e-4, 1.1e-3, 1e-2, 0.1, 0.3, 0.6, 1.0];
 
-#[test]
-fn white_metal_returns_all_light_at_every_width_and_angle() {
+/// A hard case of `hard_cases/e_scattering.rs`.
+pub fn white_metal_returns_all_light_at_every_width_and_angle() {
     for alpha in ALPHAS {
         let bsdf = bsdf(&[metal(alpha)]);
         for cos in [1.0_f32, 0.8, 0.4, 0.1, 0.01, 1e-4] {
@@ -306,8 +306,8 @@ fn white_metal_returns_all_light_at_every_width_and_angle() {
     }
 }
 
-#[test]
-fn white_plastic_returns_all_light_and_coats_never_more() {
+/// A hard case of `hard_cases/e_scattering.rs`.
+pub fn white_plastic_returns_all_light_and_coats_never_more() {
     for alpha in ALPHAS {
         for cos in [1.0_f32, 0.7, 0.3, 0.05] {
             let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
@@ -324,20 +324,19 @@ fn white_plastic_returns_all_light_and_coats_never_more() {
     }
 }
 
-#[test]
-fn ground_glass_and_panes_pass_on_no_more_than_they_receive() {
+/// A hard case of `hard_cases/e_scattering.rs`. Where grazing light meets a table that bends between its nodes, a little
+/// more is off.
+pub fn ground_glass_and_panes_pass_on_all_they_receive() {
     for wo in directions() {
         for alpha in ALPHAS {
-            let bsdf = |thin| bsdf(&[ground(1.5, alpha, thin)]);
-            let [glass, pane] =
-                [false, true].map(|thin| albedo(&bsdf(thin), wo, 20_000, Transport::Importance).r);
-            assert!(glass < 1.001 && pane < 1.001, "{alpha} along {wo}: {glass} {pane}");
-            let steep = wo.z.abs() > 0.5;
-            assert!(
-                !steep || alpha > 0.02 || glass > 0.99 && pane > 0.99,
-                "{alpha} along {wo}: {glass} {pane}"
-            );
-            assert!(!steep || glass > 0.5 && pane > 0.3, "{alpha} along {wo}: {glass} {pane}");
+            let bsdf = |ior, thin| bsdf(&[ground(ior, alpha, thin)]);
+            for (name, bsdf) in
+                [("glass", bsdf(1.5, false)), ("diamond", bsdf(2.4, false)), ("pane", bsdf(1.5, true))]
+            {
+                let seen = albedo(&bsdf, wo, 40_000, Transport::Importance).r;
+                let most = if wo.z.abs() < 0.1 { 2.5e-2 } else { 6e-3 };
+                assert!((seen - 1.0).abs() < most, "{name} {alpha} along {wo}: {seen}");
+            }
         }
     }
 }
@@ -375,8 +374,8 @@ fn an_overfull_phong_material_is_scaled_to_what_it_receives() {
     assert!((0.97..1.001).contains(&albedo), "{albedo}");
 }
 
-#[test]
-fn scattering_survives_grazing_directions() {
+/// A hard case of `hard_cases/e_scattering.rs`.
+pub fn scattering_survives_grazing_directions() {
     let materials = [
         diffuse(1.0),
         phong(0.5, 0.5, 1e5),

@@ -100,13 +100,13 @@ fn what_loses_nothing_is_invisible_under_a_uniform_sky() {
 }
 
 #[test]
-fn ground_glass_is_hardly_visible_under_a_uniform_sky() {
+fn ground_glass_is_invisible_under_a_uniform_sky() {
     let mut parts = empty(camera(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z, 0.4, 16));
     parts.materials = vec![Material::Glass(Glass { roughness: gray(0.15), ..Glass::of_ior(1.5) })];
     parts.solids = vec![sphere(Vec3::ZERO, 1.0, 0)];
     parts.environment = uniform_sky(1.0);
-    // It loses what bounces between its facets; the rest comes by rare ways, which are noise in a pixel.
-    assert_all_one(&trace(parts, 64, 1_000), 1.5e-2, 2.0);
+    // Some of it comes by rare ways, which are noise in a pixel.
+    assert_all_one(&trace(parts, 64, 1_000), 1e-2, 2.0);
 }
 
 #[test]

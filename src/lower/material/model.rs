@@ -1,7 +1,7 @@
 //! Materials of mesh files.
 
 use super::texture::Reading;
-use super::{Glass, LoadedMesh, Material, Materials, Principled, Relief};
+use super::{Glass, LoadedMesh, Material, Materials, Origin, Principled, Relief};
 use crate::asset::Look;
 use crate::asset::look::{GlassLook, Map, MapChannel, MapWrap, PrincipledLook, Shade};
 use crate::ir::material::Channel;
@@ -24,7 +24,9 @@ impl Materials<'_> {
         if let Some(&known) = self.by_model.get(&key) {
             return known;
         }
-        let id = self.look(mesh, &mesh.model.materials[index].look);
+        let material = &mesh.model.materials[index];
+        let id = self.look(mesh, &material.look);
+        self.origins.insert(id, Origin { name: Some(material.name.clone()), span: None });
         self.by_model.insert(key, id);
         id
     }

@@ -89,6 +89,20 @@ impl Lobe {
         )
     }
 
+    /// What it is called.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Lambert { .. } => "matt",
+            Self::Phong { .. } => "Phong",
+            Self::Conductor(_) => "rough reflection",
+            Self::Mirror(_) => "mirror",
+            Self::Dielectric { .. } => "clear boundary",
+            Self::RoughDielectric(_) => "ground boundary",
+            Self::Pane(_) => "pane",
+            Self::Substrate(_) => "body under a coat",
+        }
+    }
+
     /// The lobe that scatters nothing.
     pub(super) const NONE: Self = Self::Lambert { albedo: Rgb::BLACK };
 

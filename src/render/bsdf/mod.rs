@@ -9,6 +9,7 @@ mod conductor;
 mod dielectric;
 mod dispersion;
 mod fresnel;
+mod ground;
 mod lobe;
 mod material;
 mod mirror;
@@ -245,6 +246,12 @@ impl Bsdf {
     /// Whether [`Self::sample`] looks at `u_lobe`: not with a single lobe that only reflects.
     pub fn has_choice(&self) -> bool {
         !matches!(self.lobes(), [lobe] if !lobe.has_choice())
+    }
+
+    /// The lobe from which [`Self::sample`] draws for `u_lobe`.
+    pub fn lobe_chosen(&self, wo: Vec3, u_lobe: f32) -> Option<Lobe> {
+        let (lobe, ..) = self.choose(self.view(wo)?.wo, u_lobe)?;
+        Some(self.lobes[lobe])
     }
 
     /// The value for a pair of directions times `|cos θi|`, per steradian; zero for specular lobes.

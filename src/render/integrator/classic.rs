@@ -4,7 +4,7 @@
 //! It simulates no light between matt surfaces, and promises no energy: it is here for pictures that were made this way.
 //! A light's colour is not divided by π: a white matt surface that faces a light of colour 1 is 1.
 
-use super::{Counters, Integrator, Pass};
+use super::{Counters, Event, Integrator, Pass, Witness};
 use crate::math::{Ray, Rgb, Vec3, float};
 use crate::render::bsdf::{Glass, Material, fresnel_dielectric};
 use crate::render::geometry::SurfacePoint;
@@ -72,12 +72,18 @@ impl<'a> Classic<'a> {
 impl Integrator for Classic<'_> {
     fn begin_pass(&mut self, _: Pass, _: &mut Counters, _: &(dyn Fn() -> bool + Sync)) {}
 
-    fn radiance(&self, ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+    fn radiance<W: Witness>(
+        &self,
+        ray: Ray,
+        sampler: &Sampler,
+        counters: &mut Counters,
+        witness: &mut W,
+    ) -> Rgb {
         let mut radiance = Rgb::BLACK;
         let mut tree = Vec::new();
         let mut next = Some(Branch { ray, weight: Rgb::WHITE, depth: 0, media: Media::NONE });
         while let Some(branch) = next {
-            radiance += self.follow(&branch, &mut tree, sampler, counters);
+            radiance += self.follow(&branch, &mut tree, sampler, counters, witness);
             next = tree.pop();
         }
         radiance
@@ -92,15 +98,19 @@ impl Classic<'_> {
         tree: &mut Vec<Branch>,
         sampler: &Sampler,
         counters: &mut Counters,
+        witness: &mut impl Witness,
     ) -> Rgb {
         let world = self.world;
         counters.rays += 1;
         let Some(hit) = world.closest_hit(&branch.ray) else {
-            return branch.weight * world.lights.sky(branch.ray.d).0;
+            let added = branch.weight * world.lights.sky(branch.ray.d).0;
+            witness.note(|| Event::Sky { dir: branch.ray.d, added });
+            return added;
         };
         let surface = world.interaction(&branch.ray, &hit);
         let wo = -branch.ray.d;
         let weight = branch.weight * branch.media.transmittance(hit.t, &world.materials);
+        witness.note(|| Event::Vertex { surface, wo, t: hit.t, beta: weight });
         let parts = world.materials.parts(surface.material, &surface);
         let vertex = Vertex { surface: &surface, parts: &parts, wo, depth: branch.depth };
 
@@ -109,7 +119,9 @@ impl Classic<'_> {
                 self.grow(&vertex, part, weight * share, &branch.media, tree);
             }
         }
-        weight * (world.emitted(&surface, wo) + self.lit(&vertex, sampler, counters))
+        let added = weight * (world.emitted(&surface, wo) + self.lit(&vertex, sampler, counters));
+        witness.note(|| Event::Lit { added });
+        added
     }
 
     /// What the lights make of a point, by the materials' own colours.

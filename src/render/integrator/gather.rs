@@ -164,7 +164,7 @@ impl PathTracer<'_> {
                 let vertex = Vertex { bsdf: &white, ..vertex };
                 return Probe::Two(self.cell(grid, &vertex), self.sent_by(walk, &vertex, counters));
             }
-            if self.scatter(&mut walk, &vertex).is_none() {
+            if self.scatter(&mut walk, &vertex, &mut ()).is_none() {
                 break;
             }
         }
@@ -174,9 +174,9 @@ impl PathTracer<'_> {
     /// The radiance that a vertex sends on, whatever the path did before.
     fn sent_by(&self, mut walk: Walk, vertex: &Vertex, counters: &mut Counters) -> Rgb {
         (walk.beta, walk.eta_scale) = (Rgb::WHITE, 1.0);
-        let mut radiance = self.lit(&walk, vertex, counters);
-        if self.scatter(&mut walk, vertex).is_some() {
-            radiance += self.follow(walk, &mut Vec::new(), counters);
+        let mut radiance = self.lit(&walk, vertex, counters, &mut ());
+        if self.scatter(&mut walk, vertex, &mut ()).is_some() {
+            radiance += self.follow(walk, &mut Vec::new(), counters, &mut ());
         }
         if radiance.is_valid() { radiance } else { Rgb::BLACK }
     }

@@ -8,10 +8,13 @@ mod path;
 mod ppm;
 mod vertex;
 mod weight;
+mod witness;
 
 pub use classic::{Classic, ClassicSettings, Shading};
 pub use path::PathTracer;
 pub use ppm::PhotonMapper;
+pub use weight::mis_weight;
+pub use witness::{End, Event, Witness};
 
 use super::film::STREAMS;
 use super::sampler::Sampler;
@@ -28,8 +31,14 @@ pub trait Integrator: Sync {
         0.0
     }
 
-    /// The radiance that arrives along a camera ray.
-    fn radiance(&self, ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb;
+    /// The radiance that arrives along a camera ray; how it comes about is told to `witness`.
+    fn radiance<W: Witness>(
+        &self,
+        ray: Ray,
+        sampler: &Sampler,
+        counters: &mut Counters,
+        witness: &mut W,
+    ) -> Rgb;
 }
 
 /// One of the passes of a render; all its random numbers follow from it.

@@ -8,7 +8,7 @@ use super::fork::{self, MOST_WAITING, Way};
 use super::gather::{Gathering, MOST_GATHERS};
 use super::vertex::{Last, Vertex};
 use super::weight::{mis_weight, roulette};
-use super::{Counters, Integrator, Pass};
+use super::{Counters, End, Event, Integrator, Pass, Witness};
 use crate::math::{Ray, Rgb, Vec2, Vec3};
 use crate::render::bsdf::{Bsdf, BsdfSample, MaterialId, Transport};
 use crate::render::driver::HybridSettings;
@@ -100,11 +100,18 @@ impl Integrator for PathTracer<'_> {
         self.caustics.as_ref().map_or(0.0, Caustics::blur)
     }
 
-    fn radiance(&self, ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+    fn radiance<W: Witness>(
+        &self,
+        ray: Ray,
+        sampler: &Sampler,
+        counters: &mut Counters,
+        witness: &mut W,
+    ) -> Rgb {
         let mut waiting = Vec::new();
-        let mut radiance = self.follow(self.start(ray, sampler), &mut waiting, counters);
+        let mut radiance = self.follow(self.start(ray, sampler), &mut waiting, counters, witness);
         while let Some(walk) = waiting.pop() {
-            radiance += self.follow(walk, &mut waiting, counters);
+            witness.note(|| Event::Branch { depth: walk.depth });
+            radiance += self.follow(walk, &mut waiting, counters, witness);
         }
         radiance
     }
@@ -131,39 +138,55 @@ impl PathTracer<'_> {
     }
 
     /// Follows a path to its end: the light it finds. Other ways to go are left in `waiting`.
-    pub(super) fn follow(&self, mut walk: Walk, waiting: &mut Vec<Walk>, counters: &mut Counters) -> Rgb {
+    pub(super) fn follow(
+        &self,
+        mut walk: Walk,
+        waiting: &mut Vec<Walk>,
+        counters: &mut Counters,
+        witness: &mut impl Witness,
+    ) -> Rgb {
         let mut radiance = Rgb::BLACK;
         while walk.depth < self.max_depth {
             // Find the next vertex, or take what the sky sends and stop.
             counters.rays += 1;
             let Some(hit) = self.world.closest_hit(&walk.ray) else {
-                return radiance + walk.beta * self.sky(walk.ray.d, &walk.last);
+                let added = walk.beta * self.sky(walk.ray.d, &walk.last);
+                witness.note(|| Event::Sky { dir: walk.ray.d, added });
+                return radiance + added;
             };
             let surface = self.world.interaction(&walk.ray, &hit);
             let wo = -walk.ray.d;
             walk.pass_through(hit.t, self.world);
+            witness.note(|| Event::Vertex { surface, wo, t: hit.t, beta: walk.beta });
 
             // Add light emitted here, then light straight from the lamps.
-            radiance += walk.beta * self.emitted(&surface, wo, &walk.last);
+            let added = walk.beta * self.emitted(&surface, wo, &walk.last);
+            witness.note(|| Event::Emitted { added });
+            radiance += added;
             if walk.depth + 1 == self.max_depth || walk.is_last {
+                witness.note(|| Event::Ended(End::Depth));
                 break;
             }
             let bsdf = self.world.bsdf_between(&surface, wo, &walk.media);
             let vertex = walk.vertex(&surface, &bsdf, wo);
+            witness.note(|| Event::Lobes(bsdf.lobes().to_vec()));
             let mut lit = Rgb::BLACK;
             if bsdf.is_smooth() {
                 if !walk.is_lit() {
+                    witness.note(|| Event::Ended(End::Roulette));
                     break;
                 }
                 if let Some(known) = self.gathered(&walk, &vertex, hit.t) {
-                    return radiance + walk.beta * known;
+                    let added = walk.beta * known;
+                    witness.note(|| Event::Gathered { added });
+                    return radiance + added;
                 }
-                lit = self.lit(&walk, &vertex, counters);
+                lit = self.lit(&walk, &vertex, counters, witness);
                 radiance += walk.beta * lit;
             }
 
             // Follow one direction onwards, or several.
-            if self.go_on(&mut walk, &vertex, lit, waiting).is_none() {
+            if self.go_on(&mut walk, &vertex, lit, waiting, witness).is_none() {
                 break;
             }
         }
@@ -171,24 +194,38 @@ impl PathTracer<'_> {
     }
 
     /// What lamps and photons send to a vertex and on to the viewer.
-    pub(super) fn lit(&self, walk: &Walk, vertex: &Vertex, counters: &mut Counters) -> Rgb {
-        let mut radiance = self.direct(vertex, &walk.media, &walk.sampler, counters);
-        if let Some(caustics) = &self.caustics {
-            let Vertex { surface, bsdf, wo, depth, .. } = *vertex;
-            radiance += caustics.radiance(surface, bsdf, wo, depth + 1, walk.footprint);
-        }
-        radiance
+    pub(super) fn lit(
+        &self,
+        walk: &Walk,
+        vertex: &Vertex,
+        counters: &mut Counters,
+        witness: &mut impl Witness,
+    ) -> Rgb {
+        let direct = self.direct(vertex, &walk.media, &walk.sampler, counters, witness);
+        witness.note(|| Event::Lit { added: walk.beta * direct });
+        let Some(caustics) = &self.caustics else { return direct };
+        let Vertex { surface, bsdf, wo, depth, .. } = *vertex;
+        let thrown = caustics.radiance(surface, bsdf, wo, depth + 1, walk.footprint);
+        witness.note(|| Event::Photons { added: walk.beta * thrown });
+        direct + thrown
     }
 
     /// Moves a path on from a vertex; `None` if it ends there. Other ways to go are left in `waiting`.
-    fn go_on(&self, walk: &mut Walk, vertex: &Vertex, lit: Rgb, waiting: &mut Vec<Walk>) -> Option<()> {
+    fn go_on(
+        &self,
+        walk: &mut Walk,
+        vertex: &Vertex,
+        lit: Rgb,
+        waiting: &mut Vec<Walk>,
+        witness: &mut impl Witness,
+    ) -> Option<()> {
         let count = self.gather_count(walk, vertex, lit);
         if count > 1 {
             walk.beta /= count as f32;
             for i in 1..count {
                 let sampler = walk.sampler.part(i, MOST_GATHERS);
                 let mut part = Walk { sampler, ..walk.clone() };
-                waiting.extend(self.scatter(&mut part, vertex).map(|()| part));
+                waiting.extend(self.scatter(&mut part, vertex, witness).map(|()| part));
             }
             walk.sampler = walk.sampler.part(0, MOST_GATHERS);
         } else if self.forks
@@ -196,20 +233,27 @@ impl PathTracer<'_> {
             && waiting.len() < MOST_WAITING
             && let Some(mirrored) = vertex.bsdf.mirrored_share(vertex.wo)
         {
-            return self.fork(walk, vertex, mirrored, waiting);
+            return self.fork(walk, vertex, mirrored, waiting, witness);
         }
-        self.scatter(walk, vertex)
+        self.scatter(walk, vertex, witness)
     }
 
     /// Moves a path on both ways from a clear surface that mirrors a part of the light, or on one of them.
-    fn fork(&self, walk: &mut Walk, vertex: &Vertex, mirrored: f32, waiting: &mut Vec<Walk>) -> Option<()> {
+    fn fork(
+        &self,
+        walk: &mut Walk,
+        vertex: &Vertex,
+        mirrored: f32,
+        waiting: &mut Vec<Walk>,
+        witness: &mut impl Witness,
+    ) -> Option<()> {
         let u = walk.sampler.get_1d(Dim::Lobe(walk.depth));
         let [mirrored, through] = fork::ways(mirrored, walk.share, u);
-        let take = |Way { u_lobe, factor }: Way, sampler| {
+        let mut take = |Way { u_lobe, factor }: Way, sampler| {
             let next = vertex.bsdf.sample(vertex.wo, Vec2::ZERO, u_lobe, Transport::Radiance)?;
             let (beta, share) = (walk.beta * factor, walk.share * factor);
             let mut branch = Walk { sampler, beta, share, ..walk.clone() };
-            self.step(&mut branch, vertex, &next).map(|()| branch)
+            self.step(&mut branch, vertex, &next, u_lobe, witness).map(|()| branch)
         };
         let beside = if through.is_some() { walk.sampler.branch(walk.depth) } else { walk.sampler };
         let mirrored = mirrored.and_then(|way| take(way, beside));
@@ -225,15 +269,30 @@ impl PathTracer<'_> {
 
     /// Moves a path on in a direction that its bsdf draws; `None` if it ends.
     #[inline]
-    pub(super) fn scatter(&self, walk: &mut Walk, vertex: &Vertex) -> Option<()> {
-        let next = vertex.sample_bsdf(&walk.sampler)?;
-        self.step(walk, vertex, &next)
+    pub(super) fn scatter(&self, walk: &mut Walk, vertex: &Vertex, witness: &mut impl Witness) -> Option<()> {
+        let Some(next) = vertex.sample_bsdf(&walk.sampler) else {
+            witness.note(|| Event::Ended(End::Absorbed));
+            return None;
+        };
+        let u_lobe = vertex.u_lobe(&walk.sampler);
+        self.step(walk, vertex, &next, u_lobe, witness)
     }
 
-    /// Moves a path on in a drawn direction; `None` if it ends.
+    /// Moves a path on in a direction drawn from the lobe that `u_lobe` chose; `None` if it ends.
     #[inline]
-    fn step(&self, walk: &mut Walk, vertex: &Vertex, next: &BsdfSample) -> Option<()> {
+    fn step(
+        &self,
+        walk: &mut Walk,
+        vertex: &Vertex,
+        next: &BsdfSample,
+        u_lobe: f32,
+        witness: &mut impl Witness,
+    ) -> Option<()> {
         let Vertex { surface, depth, .. } = *vertex;
+        witness.note(|| {
+            let BsdfSample { wi, weight, pdf, through, .. } = *next;
+            Event::Scattered { lobe: vertex.bsdf.lobe_chosen(vertex.wo, u_lobe), wi, weight, pdf, through }
+        });
         walk.beta *= next.weight;
         walk.eta_scale *= next.eta * next.eta;
         walk.is_clear &= next.specular;
@@ -258,7 +317,11 @@ impl PathTracer<'_> {
         // End dim paths early; the survivors carry their weight.
         let worth = walk.beta.max_component() * walk.eta_scale;
         let u = || walk.sampler.get_1d(Dim::Roulette(depth));
-        walk.beta /= roulette(worth, depth, next.specular, u)?;
+        let Some(survival) = roulette(worth, depth, next.specular, u) else {
+            witness.note(|| Event::Ended(End::Roulette));
+            return None;
+        };
+        walk.beta /= survival;
         walk.depth += 1;
         Some(())
     }
@@ -344,6 +407,7 @@ impl PathTracer<'_> {
         media: &Media,
         sampler: &Sampler,
         counters: &mut Counters,
+        witness: &mut impl Witness,
     ) -> Rgb {
         let (world, depth) = (self.world, vertex.depth);
         let (u_choice, u) = (sampler.get_2d(Dim::LightChoice(depth)), sampler.get_2d(Dim::Light(depth)));
@@ -352,11 +416,22 @@ impl PathTracer<'_> {
         };
         let (value, pdf_bsdf) = self.eval_pdf(vertex, Source::of(&drawn), drawn.wi);
         let mut arriving = value * drawn.radiance;
+        let told = |blocked| Event::Light {
+            wi: drawn.wi,
+            distance: drawn.distance(),
+            arriving: value * drawn.radiance,
+            pdf: drawn.pdf,
+            pdf_bsdf,
+            blocked,
+        };
         if arriving.is_black() {
+            witness.note(|| told(false));
             return Rgb::BLACK;
         }
         counters.rays += 1;
-        if world.any_hit(&drawn.shadow_ray(vertex.surface)) {
+        let blocked = world.any_hit(&drawn.shadow_ray(vertex.surface));
+        witness.note(|| told(blocked));
+        if blocked {
             return Rgb::BLACK;
         }
         let weight = if drawn.delta { 1.0 } else { mis_weight(drawn.pdf, pdf_bsdf) };

@@ -10,9 +10,9 @@
 
 use super::fork::{self, MOST_WAITING, Way};
 use super::weight::roulette;
-use super::{Counters, Integrator, Pass};
+use super::{Counters, End, Event, Integrator, Pass, Witness};
 use crate::math::{Ray, Rgb, Vec2};
-use crate::render::bsdf::{Bsdf, Transport};
+use crate::render::bsdf::{Bsdf, BsdfSample, Transport};
 use crate::render::driver::PpmSettings;
 use crate::render::geometry::SurfacePoint;
 use crate::render::media::Media;
@@ -50,14 +50,21 @@ impl Integrator for PhotonMapper<'_> {
         self.schedule.shrunk()
     }
 
-    fn radiance(&self, ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+    fn radiance<W: Witness>(
+        &self,
+        ray: Ray,
+        sampler: &Sampler,
+        counters: &mut Counters,
+        witness: &mut W,
+    ) -> Rgb {
         let media = Media::start(&self.world.materials, sampler);
         let (beta, sampler) = (Rgb::WHITE, *sampler);
         let start = Walk { ray, sampler, depth: 0, beta, eta_scale: 1.0, media, share: 1.0, is_clear: true };
         let mut waiting = Vec::new();
-        let mut radiance = self.follow(start, &mut waiting, counters);
+        let mut radiance = self.follow(start, &mut waiting, counters, witness);
         while let Some(walk) = waiting.pop() {
-            radiance += self.follow(walk, &mut waiting, counters);
+            witness.note(|| Event::Branch { depth: walk.depth });
+            radiance += self.follow(walk, &mut waiting, counters, witness);
         }
         radiance
     }
@@ -79,24 +86,37 @@ struct Walk {
 
 impl PhotonMapper<'_> {
     /// Follows a path to its end: the light it finds. Other ways to go are left in `waiting`.
-    fn follow(&self, mut walk: Walk, waiting: &mut Vec<Walk>, counters: &mut Counters) -> Rgb {
+    fn follow(
+        &self,
+        mut walk: Walk,
+        waiting: &mut Vec<Walk>,
+        counters: &mut Counters,
+        witness: &mut impl Witness,
+    ) -> Rgb {
         let mut radiance = Rgb::BLACK;
         while walk.depth < self.max_depth {
             // Find the next vertex, or take what the sky sends and stop.
             counters.rays += 1;
             let Some(hit) = self.world.closest_hit(&walk.ray) else {
-                return radiance + walk.beta * self.world.lights.sky(walk.ray.d).0;
+                let added = walk.beta * self.world.lights.sky(walk.ray.d).0;
+                witness.note(|| Event::Sky { dir: walk.ray.d, added });
+                return radiance + added;
             };
             let surface = self.world.interaction(&walk.ray, &hit);
             let wo = -walk.ray.d;
             walk.beta *= walk.media.transmittance(hit.t, &self.world.materials);
+            witness.note(|| Event::Vertex { surface, wo, t: hit.t, beta: walk.beta });
 
             // Add light emitted here, then light that photons brought.
-            radiance += walk.beta * self.world.emitted(&surface, wo);
+            let added = walk.beta * self.world.emitted(&surface, wo);
+            witness.note(|| Event::Emitted { added });
+            radiance += added;
             let bsdf = self.world.bsdf_between(&surface, wo, &walk.media);
+            witness.note(|| Event::Lobes(bsdf.lobes().to_vec()));
             let rough = bsdf.only(gathers);
             if !rough.lobes().is_empty() {
                 if !walk.is_lit() {
+                    witness.note(|| Event::Ended(End::Roulette));
                     break;
                 }
                 let gather = Gather {
@@ -104,17 +124,19 @@ impl PhotonMapper<'_> {
                     k: self.settings.k.max(2) as usize,
                     max_depth: self.max_depth - walk.depth, // this vertex belongs to both paths
                 };
-                radiance += walk.beta * gather.radiance(&self.map, &surface, &rough, wo);
+                let added = walk.beta * gather.radiance(&self.map, &surface, &rough, wo);
+                witness.note(|| Event::Photons { added });
+                radiance += added;
             }
 
             // Follow one sharp reflection onwards, or what is mirrored and what is let through.
             let sharp = bsdf.only(|lobe| !gathers(lobe));
             let forks = walk.is_clear && waiting.len() < MOST_WAITING;
             let ended = match sharp.mirrored_share(wo).filter(|_| forks) {
-                Some(mirrored) => self.fork(&mut walk, &surface, &sharp, mirrored, waiting),
+                Some(mirrored) => self.fork(&mut walk, &surface, &sharp, mirrored, waiting, witness),
                 None => {
                     let (u, u_lobe) = walk.drawn();
-                    self.step(&mut walk, &surface, &sharp, u, u_lobe)
+                    self.step(&mut walk, &surface, &sharp, u, u_lobe, witness)
                 }
             };
             if ended.is_none() {
@@ -132,13 +154,14 @@ impl PhotonMapper<'_> {
         sharp: &Bsdf,
         mirrored: f32,
         waiting: &mut Vec<Walk>,
+        witness: &mut impl Witness,
     ) -> Option<()> {
         let (_, u) = walk.drawn();
         let [mirrored, through] = fork::ways(mirrored, walk.share, u);
-        let take = |Way { u_lobe, factor }: Way, sampler| {
+        let mut take = |Way { u_lobe, factor }: Way, sampler| {
             let (beta, share) = (walk.beta * factor, walk.share * factor);
             let mut branch = Walk { sampler, beta, share, ..walk.clone() };
-            self.step(&mut branch, surface, sharp, Vec2::ZERO, u_lobe).map(|()| branch)
+            self.step(&mut branch, surface, sharp, Vec2::ZERO, u_lobe, witness).map(|()| branch)
         };
         let beside = if through.is_some() { walk.sampler.branch(walk.depth) } else { walk.sampler };
         let mirrored = mirrored.and_then(|way| take(way, beside));
@@ -160,8 +183,17 @@ impl PhotonMapper<'_> {
         sharp: &Bsdf,
         u: Vec2,
         u_lobe: f32,
+        witness: &mut impl Witness,
     ) -> Option<()> {
-        let next = sharp.sample(-walk.ray.d, u, u_lobe, Transport::Radiance)?;
+        let wo = -walk.ray.d;
+        let Some(next) = sharp.sample(wo, u, u_lobe, Transport::Radiance) else {
+            witness.note(|| Event::Ended(End::Absorbed));
+            return None;
+        };
+        witness.note(|| {
+            let BsdfSample { wi, weight, pdf, through, .. } = next;
+            Event::Scattered { lobe: sharp.lobe_chosen(wo, u_lobe), wi, weight, pdf, through }
+        });
         walk.beta *= next.weight;
         walk.eta_scale *= next.eta * next.eta;
         walk.is_clear &= next.specular;
@@ -174,7 +206,11 @@ impl PhotonMapper<'_> {
         // End dim paths early; the survivors carry their weight.
         let worth = walk.beta.max_component() * walk.eta_scale;
         let u = || walk.sampler.get_1d(Dim::Roulette(walk.depth));
-        walk.beta /= roulette(worth, walk.depth, next.specular, u)?;
+        let Some(survival) = roulette(worth, walk.depth, next.specular, u) else {
+            witness.note(|| Event::Ended(End::Roulette));
+            return None;
+        };
+        walk.beta /= survival;
         walk.depth += 1;
         Some(())
     }

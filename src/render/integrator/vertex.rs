@@ -38,8 +38,12 @@ impl Vertex<'_> {
     /// Draws the direction in which the path goes on.
     pub fn sample_bsdf(&self, sampler: &Sampler) -> Option<BsdfSample> {
         let u = sampler.get_2d(Dim::Bsdf(self.depth));
-        let u_lobe = if self.bsdf.has_choice() { sampler.get_1d(Dim::Lobe(self.depth)) } else { 0.0 };
-        self.bsdf.sample(self.wo, u, u_lobe, Transport::Radiance)
+        self.bsdf.sample(self.wo, u, self.u_lobe(sampler), Transport::Radiance)
+    }
+
+    /// The number that chooses a lobe.
+    pub fn u_lobe(&self, sampler: &Sampler) -> f32 {
+        if self.bsdf.has_choice() { sampler.get_1d(Dim::Lobe(self.depth)) } else { 0.0 }
     }
 
     /// Whether a drawn direction counts as that of a sharp lobe, and by what to multiply its weight then.
