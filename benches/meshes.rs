@@ -47,9 +47,9 @@ fn here(text: &[u8]) {
 fn tobj_reader(text: &[u8]) {
     let options = tobj::LoadOptions { single_index: true, triangulate: true, ..Default::default() };
     let mut text = text;
-    black_box(
-        tobj::load_obj_buf(&mut text, &options, |_| Ok(Default::default())).expect("the mesh is right"),
-    );
+    let read = tobj::load_obj_buf(&mut text, &options, |_| Ok(Default::default()));
+    let (models, _) = read.expect("the mesh is right");
+    black_box(models);
 }
 
 fn gltf_reader(bytes: &[u8]) {
