@@ -27,10 +27,18 @@ fn turned_bounds(profile: &Curve) -> Extent {
     Some((DVec3::new(-reach, min.y, -reach), DVec3::new(reach, max.y, reach)))
 }
 
-/// The middle of all that is bounded.
+/// The middle of all that is bounded, but for what is more than a thousand times as large as most of it: around a ball as
+/// large as a planet that serves as a floor, what stands on it would be left without digits.
 pub fn scene_center(loaded: &Loaded<'_>) -> DVec3 {
+    const MOST: f64 = 1e3;
     let boxes = loaded.scene.objects.iter().filter_map(|object| object_bounds(object, loaded));
-    extent(boxes.flat_map(|(min, max)| [min, max])).map_or(DVec3::ZERO, |(min, max)| (min + max) / 2.0)
+    let boxes: Vec<_> = boxes.collect();
+    let size = |(min, max): &(DVec3, DVec3)| (*max - *min).max_element();
+    let mut sizes: Vec<f64> = boxes.iter().map(size).collect();
+    sizes.sort_by(f64::total_cmp);
+    let usual = sizes.get(sizes.len().saturating_sub(1) / 2).copied().unwrap_or(0.0);
+    let near = boxes.iter().filter(|bounds| size(bounds) <= MOST * usual);
+    extent(near.flat_map(|&(min, max)| [min, max])).map_or(DVec3::ZERO, |(min, max)| (min + max) / 2.0)
 }
 
 fn extent(points: impl IntoIterator<Item = DVec3>) -> Extent {

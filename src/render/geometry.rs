@@ -4,6 +4,7 @@ mod gradient;
 mod instance;
 mod sampling;
 mod surface;
+mod terminator;
 
 pub use gradient::Gradient;
 pub use sampling::{AreaSample, DirectionSample, Outline};

@@ -4,6 +4,7 @@ use crate::support::*;
 use snell::math::{DAffine3, DMat3, DVec2, DVec3, Ray, Vec2, Vec3};
 use snell::render::geometry::Geometry;
 use snell::render::shape::{Profile, SolidKind};
+use snell::source::Memory;
 
 fn solids(kind: SolidKind, world_from_object: DAffine3) -> Geometry {
     Geometry::build(Vec::new(), vec![solid(kind, world_from_object)])
@@ -70,6 +71,31 @@ fn hard_case_19_spheres_as_large_as_worlds() {
         worst_naive = worst_naive.max((naive - 1.0).abs());
     }
     assert!(worst_naive > 1e-2, "the textbook is off by only {worst_naive}");
+}
+
+/// Pebbles of a centimetre on a floor.
+const PEBBLES: &str = "
+snell 1
+param floor: int = 0
+camera { position: (0m, 10cm, 40cm), look_at: (0m, 1cm, 0m), fov: 30deg, film: { size: 24 x 24 } }
+light sphere { center: (20cm, 50cm, 20cm), radius: 5cm, power: 12W }
+if floor == 0 { plane { y: 0m } }
+if floor == 1 { sphere { center: (0m, -10000km, 0m), radius: 10000km } }
+for i in 0..7 { sphere { center: (-9cm + i * 3cm, 1cm, 0m), radius: 1cm } }
+render { method: pt, depth: 4 }
+";
+
+/// Case 19 in a picture: pebbles on a planet look like pebbles on a plane, within 2 % of the mean. The middle of the whole
+/// scene, moved to the origin, would leave what stands on the planet 10⁷ m away, where single precision knows metres.
+#[test]
+fn hard_case_19_pebbles_on_a_planet() {
+    let mean = |floor: &str| {
+        let told = render_text(PEBBLES, &Memory::default(), &[("floor", floor)], 64);
+        crate::laws::worlds::mean(&told.film.unwrap_or_else(|| panic!("{}", told.report)))
+    };
+    let (plane, planet) = (mean("0"), mean("1"));
+    assert!((planet / plane - 1.0).abs() < 0.02, "{planet} on the planet, {plane} on the plane");
+    assert_eq!(1e7_f32 + 0.01, 1e7);
 }
 
 /// Case 20: rays that leave a sphere outwards never meet it again, those inwards meet it exactly once more, also when

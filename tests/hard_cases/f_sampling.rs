@@ -206,11 +206,13 @@ fn glowing_ball(albedo: f32) -> Parts {
     parts
 }
 
-/// Case 50: roulette in closed balls of albedo 0.5 and 0.9: radiance 1 within 0.3 %. Whoever ends paths by chance and gives
-/// survivors no greater weight loses most of the light.
+/// Case 50: roulette in closed balls of albedo 0.5, 0.9 and 0.99: radiance 1 within 0.3 %, and within 1.5 %, its noise,
+/// for the last, whose paths have a hundred vertices. Whoever ends paths by chance and gives survivors no greater weight
+/// loses most of the light. So does, nearly always, whoever ends one in twenty whatever they carry: of light that loses one
+/// in a hundred the square of the weight then grows without bound.
 #[test]
 fn hard_case_50_roulette_takes_nothing() {
-    for (albedo, passes, most) in [(0.5, 128, 3e-3), (0.9, 128, 3e-3)] {
+    for (albedo, passes, most) in [(0.5, 128, 3e-3), (0.9, 128, 3e-3), (0.99, 256, 1.5e-2)] {
         let found = mean(&trace(glowing_ball(albedo), passes, 10_000));
         assert!((found - 1.0).abs() <= most, "albedo {albedo}: {found}");
     }

@@ -22,7 +22,7 @@ fn quarters(tracer: &PathTracer, world: &World) -> ([(f64, f64); 4], u64) {
                 let sampler = Pass { index, seed }.camera_sampler(u64::from(y) << 32 | u64::from(x));
                 let ray =
                     world.camera.ray([x, y], sampler.get_2d(Dim::Filter), Vec2::ZERO).expect("no lens").ray;
-                let radiance = tracer.radiance(ray, &sampler, &mut counters).mean();
+                let radiance = tracer.radiance(ray, &sampler, &mut counters, &mut ()).mean();
                 let quarter = usize::from(x >= SIDE / 2) + 2 * usize::from(y >= SIDE / 2);
                 means[quarter][seed as usize] += f64::from(radiance) / f64::from(PASSES * SIDE * SIDE / 4);
             }

@@ -215,6 +215,12 @@ impl Bsdf {
         self.frame.z
     }
 
+    /// The same as if the normal that it scatters about were the real one.
+    #[must_use]
+    pub fn rounded(&self) -> Self {
+        Self { n: self.frame.z, ..*self }
+    }
+
     /// Puts it where another solid fills the space on both sides: light passes as if nothing were there.
     pub fn hide(&mut self) {
         self.set_ior(1.0);

@@ -400,6 +400,16 @@ impl PathTracer<'_> {
         (vertex.bsdf.only(gathers).eval(vertex.wo, wi), pdf)
     }
 
+    /// The point of the round surface that a facet stands for, if that is lit along `wi` and the facet is not.
+    fn rounded(&self, vertex: &Vertex, wi: Vec3) -> Option<SurfacePoint> {
+        let (n, ns) = (vertex.surface.n, vertex.bsdf.normal());
+        let faces = |n: Vec3| vertex.wo.dot(n) * wi.dot(n) > 0.0;
+        if ns == n || faces(n) || !faces(ns) || vertex.bsdf.transmits() {
+            return None;
+        }
+        self.world.geometry.rounded(vertex.surface, vertex.wo)
+    }
+
     /// What one light sends straight to a vertex and on to the viewer, weighed against finding it by the bsdf.
     pub(super) fn direct(
         &self,
@@ -414,7 +424,12 @@ impl PathTracer<'_> {
         let Some(drawn) = world.lights.sample_li(&world.geometry, &vertex.viewpoint(), u_choice, u) else {
             return Rgb::BLACK;
         };
-        let (value, pdf_bsdf) = self.eval_pdf(vertex, Source::of(&drawn), drawn.wi);
+        let (mut value, mut pdf_bsdf) = self.eval_pdf(vertex, Source::of(&drawn), drawn.wi);
+        // A facet that turns away from light which the round surface above it receives. Nothing else finds that light.
+        let rounded = if value.is_black() { self.rounded(vertex, drawn.wi) } else { None };
+        if rounded.is_some() {
+            (value, pdf_bsdf) = (vertex.bsdf.rounded().eval(vertex.wo, drawn.wi), 0.0);
+        }
         let mut arriving = value * drawn.radiance;
         let told = |blocked| Event::Light {
             wi: drawn.wi,
@@ -429,7 +444,7 @@ impl PathTracer<'_> {
             return Rgb::BLACK;
         }
         counters.rays += 1;
-        let blocked = world.any_hit(&drawn.shadow_ray(vertex.surface));
+        let blocked = world.any_hit(&drawn.shadow_ray(rounded.as_ref().unwrap_or(vertex.surface)));
         witness.note(|| told(blocked));
         if blocked {
             return Rgb::BLACK;

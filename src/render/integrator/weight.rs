@@ -17,6 +17,9 @@ const SAFE_BOUNCES: u32 = 3;
 const SAFE_SPECULAR_BOUNCES: u32 = 32;
 /// After so many bounces even paths that lose nothing end sooner or later.
 const ENDLESS_BOUNCES: u32 = 8;
+/// Survival of those that carry more than they started with. Where each bounce keeps ρ, weights of survivors have a variance
+/// only if survival is above ρ²: 0.95 would give none to a room of albedo 0.98.
+const MOST_OF_HEAVY: f32 = 0.99;
 
 /// The probability with which a path of the given worth (its largest throughput) was allowed to go on; `None` if it ends.
 pub fn roulette(worth: f32, depth: u32, specular: bool, u: impl FnOnce() -> f32) -> Option<f32> {
@@ -27,7 +30,11 @@ pub fn roulette(worth: f32, depth: u32, specular: bool, u: impl FnOnce() -> f32)
     if depth < safe {
         return Some(1.0);
     }
-    let most = if depth < ENDLESS_BOUNCES { 1.0 } else { 0.95 };
+    let most = match depth {
+        ..ENDLESS_BOUNCES => 1.0,
+        _ if worth > 1.0 => MOST_OF_HEAVY,
+        _ => 0.95,
+    };
     let survival = worth.clamp(0.05, most);
     (u() < survival).then_some(survival)
 }
