@@ -91,3 +91,20 @@ fn the_source_is_never_overwritten() {
         assert_eq!(std::fs::read_to_string(folder.path().join("a.txt")).expect("still there"), text);
     }
 }
+
+#[test]
+fn a_scene_of_this_language_and_a_folder_are_told_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("x.snell"), "// A scene.\n\nsnell 1\nenvironment {}\n")
+        .expect("there is room");
+    let told = |arguments: &[&str]| {
+        let output = snell(arguments, folder.path());
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (code, said) = told(&["convert", "x.snell"]);
+    assert!(code == Some(2) && said.contains("is a Snell scene already"), "{said}");
+    let (code, said) = told(&["check", "."]);
+    assert!(code == Some(2) && said.contains("such as `./x.snell`"), "{said}");
+    let (code, said) = told(&["render", "x.snell", "--size", "-5x4"]);
+    assert!(code == Some(2) && said.contains("such as `640x480`"), "{said}");
+}

@@ -149,6 +149,12 @@ pub fn run(args: &ConvertArgs) -> Exit {
         Ok(bytes) => decoded(&bytes),
         Err(reason) => return fail(reason),
     };
+    if is_snell(&text) {
+        let shown = args.input.display();
+        return fail(format_args!(
+            "`{shown}` is a Snell scene already; `snell fmt` brings one into canonical form"
+        ));
+    }
     let mut sources = SourceMap::default();
     if sources.add(args.input.display().to_string(), args.input.clone(), text.as_str().into()).is_none() {
         return fail("the scene is too large");
@@ -194,6 +200,13 @@ pub fn run(args: &ConvertArgs) -> Exit {
             Exit::Done
         }
     }
+}
+
+/// Whether a text says that it is a scene of this language: `snell 1` after any comments.
+fn is_snell(text: &str) -> bool {
+    let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with("//"));
+    let mut words = lines.next().unwrap_or_default().split_whitespace();
+    words.next() == Some("snell") && words.next().is_some_and(|word| word.parse::<u32>().is_ok())
 }
 
 /// Whether a path stands for standard input or output.

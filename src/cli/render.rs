@@ -65,6 +65,10 @@ pub struct RenderArgs {
     /// The seed of all random numbers
     #[arg(long, value_name = "N", value_parser = args::seed, allow_hyphen_values = true)]
     seed: Option<u64>,
+    /// What an .exr holds beside colour, its standard error and the number of samples; may be repeated, `all` or `none`
+    /// [default: albedo,normal,depth]
+    #[arg(long, value_name = "LAYER", value_delimiter = ',')]
+    layers: Vec<layers::Choice>,
     /// Simulate these effects: `auto` for those that the scene calls for, `all`, `+NAME` for one more, `-NAME` for one
     /// less; with commas between
     #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = Wanted::parse, allow_hyphen_values = true)]
@@ -72,10 +76,6 @@ pub struct RenderArgs {
     /// Leave out what `--effects` says though the scene calls for it; the picture says so
     #[arg(long)]
     lossy: bool,
-    /// What an .exr holds beside colour, its standard error and the number of samples; may be repeated, `all` or `none`
-    /// [default: albedo,normal,depth]
-    #[arg(long, value_name = "LAYER", value_delimiter = ',')]
-    layers: Vec<layers::Choice>,
     /// Write all that the closing words say, and more, as JSON
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,

@@ -199,6 +199,8 @@ fn read(scene: &Path) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     let read = if scene.as_os_str() == "-" {
         std::io::stdin().lock().take(MAX_TEXT + 1).read_to_end(&mut bytes)
+    } else if scene.is_dir() {
+        return Err(format!("it is a folder{}", scene_within(scene)));
     } else {
         std::fs::File::open(scene).and_then(|file| file.take(MAX_TEXT + 1).read_to_end(&mut bytes))
     };
@@ -207,6 +209,16 @@ fn read(scene: &Path) -> Result<Vec<u8>, String> {
         Ok(_) => Ok(bytes),
         Err(error) => Err(error.to_string()),
     }
+}
+
+/// A scene in a folder, as something to name instead.
+fn scene_within(folder: &Path) -> String {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let is_scene = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "snell");
+    let first = entries.map(|entry| entry.path()).filter(is_scene).min();
+    first.map_or("; name a file in it".to_owned(), |path| {
+        format!("; name a file in it, such as `{}`", path.display())
+    })
 }
 
 /// How reports for people look where standard error goes.

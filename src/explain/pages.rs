@@ -52,6 +52,7 @@ const PAGES: &[Page] = pages! {
         light_faces_away: Warning,
         light_hidden: Warning,
         light_sealed: Warning,
+        lone_glass: Warning,
         loose_error: Warning,
         may_create_energy: Warning,
         negative_light: Error,

@@ -283,7 +283,7 @@ fn render_tile<I: Integrator>(integrator: &I, world: &World, region: Region, pas
         let Some(CameraRay { ray, weight }) = ray else { return Rgb::BLACK };
         let radiance = integrator.radiance(ray, &sampler, &mut counters);
         if world.is_watched {
-            ledger::end_path(pixel, radiance);
+            ledger::end_path(number(pixel), radiance);
         }
         // What is no radiance stays none, whatever it weighs: the film counts it.
         if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
@@ -293,9 +293,14 @@ fn render_tile<I: Integrator>(integrator: &I, world: &World, region: Region, pas
 }
 
 /// The ray of a pixel in a pass, if its lens lets one through, and the numbers of its path.
-fn camera_ray(world: &World, pass: Pass, [x, y]: [u32; 2]) -> (Sampler, Option<CameraRay>) {
-    let camera = &world.camera;
-    let sampler = pass.camera_sampler(u64::from(y) << 32 | u64::from(x));
-    let u_lens = if world.effects.has(Effects::LENS_BLUR) { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
-    (sampler, camera.ray([x, y], sampler.get_2d(Dim::Filter), u_lens))
+fn camera_ray(world: &World, pass: Pass, pixel: [u32; 2]) -> (Sampler, Option<CameraRay>) {
+    let sampler = pass.camera_sampler(number(pixel));
+    let blurs = world.effects.has(Effects::LENS_BLUR);
+    let u_lens = if blurs { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
+    (sampler, world.camera.ray(pixel, sampler.get_2d(Dim::Filter), u_lens))
+}
+
+/// Another number for each pixel.
+fn number([x, y]: [u32; 2]) -> u64 {
+    u64::from(y) << 32 | u64::from(x)
 }

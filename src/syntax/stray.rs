@@ -36,9 +36,18 @@ impl Lower<'_> {
             Some("then" | "per" | "or" | "and") => "an operator stands between two values",
             _ if written.starts_with('<') => "write a point or vector between parentheses: `(0m, 1m, 0m)`",
             _ if written.starts_with(':') => "a colon follows the name of a field, parameter or argument",
+            _ if written.starts_with(['*', '/', '+', '-']) && self.follows_block(pair) => {
+                "what stands in braces is no operand: put it in parentheses, `(noise { .. }) * 3`"
+            }
             _ => "remove it, or finish what stands before it",
         };
         self.note(SyntaxError::Unreadable { what: format!("`{shown}{dots}`"), hint: hint.to_owned(), at });
+    }
+
+    /// Whether it stands after a block, on its line.
+    fn follows_block(&self, pair: &Pair<'_, Rule>) -> bool {
+        let before = &self.text.text[..pair.as_span().start()];
+        before.trim_end_matches([' ', '\t']).ends_with('}')
     }
 
     /// Tells those who wrote an operator of another language which one it is here, and refuses `-x` at a line's start.

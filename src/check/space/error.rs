@@ -144,6 +144,14 @@ pub enum SpaceError {
         object: Span,
         help: &'static str,
     },
+    #[error("this {what} is of glass, and has no inside")]
+    #[diagnostic(code(snell::check::lone_glass), severity(warning), help("{help}"))]
+    LoneGlass {
+        what: &'static str,
+        #[label("light that enters here never meets a surface where it leaves")]
+        object: Span,
+        help: &'static str,
+    },
     #[error("`{name}` is of glass, and {said}")]
     #[diagnostic(
         code(snell::check::inside_out_glass),

@@ -4,7 +4,7 @@ use super::region::{Extent, Region};
 use super::solid::{Form, Solid};
 use super::stuff::Glass;
 use super::surface::Surface;
-use super::{Meshes, OwnMaterial, SpaceError, Survey, Thing, corners, plane_of};
+use super::{Meshes, OwnMaterial, SpaceError, Survey, Thing, all_of_them, corners, plane_of};
 use crate::ir::{Caps, ShapeKind};
 use crate::math::{DMat3, DVec2, DVec3};
 use crate::source::Span;
@@ -12,6 +12,8 @@ use rustc_hash::FxHashSet;
 
 /// Pairs of glasses that are compared, at most.
 const MOST_PAIRS: usize = 200_000;
+/// Things of glass among which lone ones are looked for, at most.
+const MOST_LEAVES: usize = 500;
 /// Surfaces nearer to each other than this share of their size lie in one place.
 const ROUNDING: f64 = 1e-9;
 /// An overlap thinner than this share of a solid's size is a touch.
@@ -83,7 +85,7 @@ impl Survey<'_> {
             let surface = Surface::weld_exactly(glass.flat_map(|part| corners(part, thing.kind)));
             surface_doubt(&surface, &file.value, file.span)
         });
-        doubts.chain(self.open_ends()).collect()
+        doubts.chain(self.open_ends()).chain(self.lone_glass()).collect()
     }
 
     /// Tubes of glass without ends.
@@ -101,11 +103,47 @@ impl Survey<'_> {
             Some(SpaceError::OpenEnds { what, object: thing.object.span, help })
         })
     }
+
+    /// Things of glass that enclose nothing and stand alone, so that they cannot be the faces of something with an inside.
+    fn lone_glass(&self) -> impl Iterator<Item = SpaceError> {
+        let glass: Vec<(&Thing<'_>, Extent)> = self
+            .things
+            .iter()
+            .filter(|thing| thing.stuff.clear.is_some())
+            .filter_map(|thing| Some((thing, thing.region.as_ref()?.extent().grown(TOUCH))))
+            .take(MOST_LEAVES)
+            .collect();
+        let doubts = all_of_them(glass.iter().filter_map(|(thing, extent)| {
+            let said = leaf(thing)?;
+            let is_alone = !glass.iter().any(|(other, around)| {
+                !std::ptr::eq(*other, *thing) && other.solid.is_none() && around.touches(extent)
+            });
+            Some((thing.object.span, is_alone.then_some(said)))
+        }));
+        doubts.into_iter().map(|(object, (what, help))| SpaceError::LoneGlass { what, object, help })
+    }
 }
 
 impl<'a> Clear<'a> {
     fn of(thing: &'a Thing<'a>) -> Option<Self> {
         Some(Self { thing, solid: thing.solid.as_ref()?, glass: thing.stuff.clear? })
+    }
+}
+
+/// What people call a thing that encloses nothing by itself, and what to do about it.
+fn leaf(thing: &Thing<'_>) -> Option<(&'static str, &'static str)> {
+    const PANE: &str =
+        "for a pane write `thin: true` in its glass; with a thickness it is a `box` or another solid";
+    match thing.kind {
+        ShapeKind::Quad { .. } => Some(("quad", PANE)),
+        ShapeKind::Disk { .. } => Some(("disk", PANE)),
+        ShapeKind::Triangle { .. } => Some(("triangle", PANE)),
+        ShapeKind::Heightfield { .. } => Some(("heightfield", PANE)),
+        ShapeKind::Revolve { .. } if thing.solid.is_none() => Some((
+            "surface of revolution",
+            "begin and end its `profile` at radius 0, or end it where it began",
+        )),
+        _ => None,
     }
 }
 
