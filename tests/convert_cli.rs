@@ -108,3 +108,65 @@ fn a_scene_of_this_language_and_a_folder_are_told_so() {
     let (code, said) = told(&["render", "x.snell", "--size", "-5x4"]);
     assert!(code == Some(2) && said.contains("such as `640x480`"), "{said}");
 }
+
+/// Mesh files become scenes that check, are laid out, and name only files that are there.
+#[test]
+fn mesh_files_become_scenes() {
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/assets");
+    let files = [
+        "gltf/good.gltf",
+        "gltf/picture_inside.gltf",
+        "gltf/cameras_and_lights.gltf",
+        "gltf/glass_of_volume.gltf",
+        "gltf/matrix_mirrored.gltf",
+        "gltf/two_uv_sets.gltf",
+        "gltf/odd_names.gltf",
+        "gltf/no_nodes.gltf",
+        "obj/missing_mtl.obj",
+        "obj/quoted_name.obj",
+        "obj/missing_texture.obj",
+        "obj/nan_vertex.obj",
+    ];
+    for file in files {
+        let folder = tempfile::tempdir().expect("a folder");
+        let name = Path::new(file).file_name().unwrap().to_str().unwrap();
+        std::fs::copy(assets.join(file), folder.path().join(name)).expect("a copy");
+        for library in ["texture.mtl"] {
+            std::fs::copy(assets.join("obj").join(library), folder.path().join(library)).expect("a copy");
+        }
+        let converted = snell(&["convert", name, "-o", "x.snell", "--report", "x.json"], folder.path());
+        let said = String::from_utf8_lossy(&converted.stderr).into_owned();
+        assert_eq!(converted.status.code(), Some(0), "{file}: {said}");
+        for command in [&["check", "x.snell"][..], &["fmt", "--check", "x.snell"]] {
+            let checked = snell(command, folder.path());
+            let text = std::fs::read_to_string(folder.path().join("x.snell")).unwrap();
+            let said = String::from_utf8_lossy(&checked.stderr).into_owned();
+            assert_eq!(checked.status.code(), Some(0), "{file}: {said}\n{text}");
+        }
+        let report = std::fs::read_to_string(folder.path().join("x.json")).expect("the report");
+        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+        assert!(report["counts"]["placements"].as_u64() > Some(0), "{file}");
+    }
+}
+
+/// A picture that is there stays, unless `--force` says otherwise; without a place for it nothing is written.
+#[test]
+fn pictures_of_a_mesh_replace_nothing_unasked() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/assets/gltf/picture_inside.gltf");
+    std::fs::copy(mesh, folder.path().join("x.gltf")).expect("a copy");
+    let picture = folder.path().join("x-pictures/four_dots.png");
+    std::fs::create_dir(folder.path().join("x-pictures")).expect("a folder");
+    std::fs::write(&picture, "mine").expect("a picture");
+    let code = |arguments: &[&str]| snell(arguments, folder.path()).status.code();
+    assert_eq!(code(&["convert", "x.gltf", "-o", "x.snell"]), Some(2));
+    assert_eq!(std::fs::read(&picture).expect("the picture"), b"mine");
+    assert!(!folder.path().join("x.snell").exists());
+    assert_eq!(code(&["convert", "x.gltf"]), Some(2));
+    assert_eq!(code(&["convert", "x.gltf", "--dialect", "arsenal", "-o", "x.snell"]), Some(2));
+    assert_eq!(code(&["convert", "x.gltf", "--deny", "warnings", "-o", "x.snell"]), Some(1));
+    assert_eq!(code(&["convert", "x.gltf", "--force", "-o", "x.snell"]), Some(0));
+    assert!(std::fs::read(&picture).expect("the picture").starts_with(b"\x89PNG"));
+    let render = ["render", "x.snell", "--size", "32x24", "--passes", "2", "-q"];
+    assert_eq!(code(&render), Some(0));
+}

@@ -39,6 +39,16 @@ fn what_must_hold_of_every_text_holds_of_those_at_hand() {
     }
 }
 
+/// The traps among mesh files are where the fuzzer of meshes starts from.
+#[test]
+fn what_must_hold_of_every_mesh_holds_of_those_at_hand() {
+    let folders = ["tests/assets/obj", "tests/assets/gltf", "fuzz/found/mesh"];
+    for path in folders.iter().flat_map(|folder| files(folder)) {
+        println!("mesh {}", path.display());
+        laws::mesh(&std::fs::read(&path).expect("a file of a test can be read"));
+    }
+}
+
 /// What the grammar is made of beside its words.
 const SIGNS: [&str; 30] = [
     "{",

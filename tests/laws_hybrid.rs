@@ -62,9 +62,13 @@ const T: f64 = 5.0;
 const BIAS: f64 = 0.01;
 
 fn assert_same(name: &str, parts: Parts, other: (Method, u32)) {
+    assert_alike(name, parts, other, (hybrid(2_000, 0.03), 6));
+}
+
+fn assert_alike(name: &str, parts: Parts, other: (Method, u32), one: (Method, u32)) {
     let world = World::new(parts);
     let expected = measure(&world, other.0, other.1);
-    let found = measure(&world, hybrid(2_000, 0.03), 6);
+    let found = measure(&world, one.0, one.1);
     for (quarter, ((a, va), (b, vb))) in expected.into_iter().zip(found).enumerate() {
         let tolerance = T * (va + vb).sqrt() + BIAS * a;
         assert!(
@@ -154,6 +158,16 @@ fn worlds_of_finite_variance() -> Vec<(&'static str, Parts)> {
 fn hybrid_and_path_tracing_agree_quarter_by_quarter() {
     for (name, parts) in worlds_of_finite_variance() {
         assert_same(name, parts, (Method::Pt, 32));
+    }
+}
+
+/// So many probes that most paths end at their second matt vertex.
+#[test]
+fn what_is_gathered_is_what_paths_find() {
+    let mut red = cornell(SIDE, true);
+    red.materials[0] = Material::Diffuse { color: color(0.9, 0.3, 0.0) };
+    for (name, parts) in [("balls of glass and mirror", cornell(SIDE, true)), ("a red room", red)] {
+        assert_alike(name, parts, (Method::Pt, 64), (hybrid(40_000, 0.03), 4));
     }
 }
 
@@ -315,6 +329,24 @@ fn cancelling_stops_among_the_photons() {
         assert_eq!(outcome.stopped_by, StoppedBy::Cancelled);
         assert_eq!(monitor.0.into_inner(), 0);
     }
+}
+
+#[test]
+fn a_time_limit_stops_among_the_photons_and_changes_no_bit() {
+    let world = World::new(cornell(SIDE, true));
+    let timed = |method, seconds| {
+        let stop = Stop { seconds: Some(seconds), ..Stop::default() };
+        render(&world, &Settings { stop, ..settings(method, 1, 0) }, &())
+    };
+    let many = 2_000_000_000; // minutes of work, if nobody looked at the clock
+    let ppm = Method::Ppm(PpmSettings { photon_count: many, k: 10, radius: 0.1, shrink: 0.5 });
+    for method in [hybrid(many, 0.1), ppm] {
+        let outcome = timed(method, 0.01);
+        assert_eq!((outcome.stopped_by, outcome.stats.passes), (StoppedBy::Time, 0));
+    }
+    let some = timed(hybrid(2_000, 0.05), 0.3);
+    let again = render(&world, &settings(hybrid(2_000, 0.05), some.stats.passes, 0), &());
+    assert_eq!(some.film.mean(), again.film.mean(), "{} passes", some.stats.passes);
 }
 
 #[test]

@@ -72,7 +72,7 @@ fn fault(scene: &str) -> Option<String> {
     let files = Memory::default()
         .with("wood.png", picture(image::ImageFormat::Png))
         .with("sky.hdr", picture(image::ImageFormat::Hdr))
-        .with("teapot.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        .with("teapot.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl lid\nf 1 2 3\n")
         .with("achromat.dat", "stop 2 1 10\n100 4 1.5 30\n-100 97 1 30\n")
         .with("room.snell", "snell 1\nplane { y: 0m }\n")
         .with("materials.snell", "snell 1\nlet gold = metal { kind: gold }\n");

@@ -1,6 +1,7 @@
 //! All integration tests, in one binary: linking several costs more than running them.
 
 mod allow;
+mod assets;
 mod classic;
 mod command_line;
 mod convert_cli;

@@ -3,6 +3,7 @@
 
 pub mod curve;
 pub mod field;
+pub mod glb;
 pub mod mesh;
 pub mod noise;
 pub mod paint;

@@ -124,3 +124,27 @@ fn canonical_and_tree(text: &str) -> (Option<String>, String) {
 fn letters(text: &str) -> String {
     text.chars().filter(|c| !c.is_whitespace() && *c != '\u{FEFF}').collect()
 }
+
+/// Any bytes end in a mesh whose indices are inside, or in an error.
+pub fn mesh(bytes: &[u8]) {
+    if bytes.len() > LONGEST {
+        return;
+    }
+    let nothing = |_: &str| Err("there is no such file".to_owned());
+    let Ok(model) = snell::asset::mesh::read("fuzz.glb", bytes, &nothing, None) else { return };
+    assert!(model.triangle_count() > 0, "a mesh without triangles was read");
+    for part in &model.parts {
+        let count = part.positions.len();
+        assert!(part.triangles.iter().flatten().all(|&i| (i as usize) < count), "an index is outside");
+        assert!(part.positions.iter().all(|p| p.is_finite()), "a vertex is not finite");
+        assert!(part.normals.as_ref().is_none_or(|all| all.len() == count), "normals are missing");
+        assert!(part.uvs.as_ref().is_none_or(|all| all.len() == count), "texture points are missing");
+        assert!(
+            part.material.is_none_or(|material| material < model.materials.len()),
+            "a material is missing"
+        );
+    }
+    let pictures = model.materials.iter().flat_map(|material| material.look.pictures());
+    assert!(pictures.into_iter().all(|picture| picture < model.pictures.len()), "a picture is missing");
+    let _ = snell::asset::gltf::read_scene(bytes, &nothing);
+}

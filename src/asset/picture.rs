@@ -1,6 +1,6 @@
 //! Picture files: their size without their pixels, and their pixels.
 
-use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
 /// The largest width and height that is read.
@@ -58,10 +58,31 @@ impl From<ImageError> for PictureError {
     }
 }
 
-/// Width and height of a picture, from its header alone.
+/// What the header of a picture says.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Header {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Whether it says how much there is of each pixel.
+    pub has_alpha: bool,
+}
+
+/// What a picture is, from its header alone.
 ///
 /// # Errors
 /// [`PictureError`] when the header cannot be read or is beyond the limits.
+pub fn header(bytes: &[u8]) -> Result<Header, PictureError> {
+    let (width, height) = size(bytes)?;
+    let has_alpha = reader(bytes)?.into_decoder()?.color_type().has_alpha();
+    Ok(Header { width, height, has_alpha })
+}
+
+/// Width and height of a picture, from its header alone.
+///
+/// # Errors
+/// As [`header`].
 pub fn size(bytes: &[u8]) -> Result<(u32, u32), PictureError> {
     let (width, height) = reader(bytes)?.into_dimensions()?;
     match (width, height) {

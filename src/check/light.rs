@@ -118,9 +118,8 @@ impl Check<'_> {
         let mut emits: Vec<bool> = Vec::with_capacity(scene.materials.len());
         for material in scene.materials.iter() {
             emits.push(match &material.kind {
-                MaterialKind::Emissive { .. } => true,
                 MaterialKind::Mix { a, b, .. } => emits[a.index()] || emits[b.index()],
-                _ => false,
+                kind => shines(kind),
             });
         }
         for object in &scene.objects {
@@ -189,12 +188,21 @@ impl Check<'_> {
         let lit = is_ambient
             || !scene.lights.is_empty()
             || scene.environment.as_ref().is_some_and(Environment::is_lit)
-            || self.placed_materials().any(|(kind, _)| matches!(kind, MaterialKind::Emissive { .. }))
+            || self.placed_materials().any(|(kind, _)| shines(kind))
             || scene.objects.iter().any(is_lamp);
         let may_be_lit = lit || !self.whole && scene.intent.light;
         let camera = scene.cameras.first().map(|camera| camera.span).or(scene.intent.camera);
         if let (false, Some(camera)) = (may_be_lit, camera) {
             self.report(CheckError::NoLight { camera });
         }
+    }
+}
+
+/// Whether a material sends out light of its own.
+fn shines(kind: &MaterialKind) -> bool {
+    match kind {
+        MaterialKind::Emissive { .. } => true,
+        MaterialKind::Principled(of) => !of.emission.value.is_black(),
+        _ => false,
     }
 }

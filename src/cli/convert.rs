@@ -1,9 +1,9 @@
-//! `snell convert`: from an arsenal.txt scene to a `.snell` scene.
+//! `snell convert`: from an arsenal.txt scene, or a mesh file, to a `.snell` scene.
 
 use super::args::{Deny, MessageArgs};
 use super::messages::Messages;
-use super::session;
 use super::{Exit, fail, note, print};
+use super::{convert_mesh, session};
 use crate::convert::{
     Angle, Basis, Conversion, Dialect, DiskFinder, Falloff, Lights, Options, PlaneSign, Planes, Rendition,
     report,
@@ -17,12 +17,12 @@ use std::path::{Path, PathBuf};
 /// Arguments of `snell convert`.
 #[derive(Args, Debug)]
 pub struct ConvertArgs {
-    /// The scene to convert; `-` is standard input
-    #[arg(value_name = "IN.txt")]
-    input: PathBuf,
+    /// The scene of the arsenal family or the mesh (.glb, .gltf, .obj) to convert; `-` is standard input
+    #[arg(value_name = "IN")]
+    pub(super) input: PathBuf,
     /// Write the scene here instead of to standard output, `-`; further scenes of the file get a number
     #[arg(short, long, value_name = "OUT.snell")]
-    output: Option<PathBuf>,
+    pub(super) output: Option<PathBuf>,
     /// Of a file that holds several scenes, only this one, counted from 1
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     scene: Option<u32>,
@@ -31,7 +31,10 @@ pub struct ConvertArgs {
     dialect: Option<Dialect>,
     /// Treat everything that is wrong or not understood as an error
     #[arg(long)]
-    strict: bool,
+    pub(super) strict: bool,
+    /// Replace pictures that are there, of a mesh that holds its pictures itself
+    #[arg(long)]
+    pub(super) force: bool,
     /// Treat warnings as errors
     #[arg(long, value_name = "WHAT")]
     deny: Option<Deny>,
@@ -58,15 +61,15 @@ pub struct ConvertArgs {
     plane_sign: PlaneSignArg,
     /// Look for meshes and pictures here too; may be repeated
     #[arg(long = "asset-dir", value_name = "DIR")]
-    asset_dirs: Vec<PathBuf>,
+    pub(super) asset_dirs: Vec<PathBuf>,
     /// Write what became of each word as JSON; `-` is standard output
     #[arg(long, value_name = "FILE.json")]
-    report: Option<PathBuf>,
-    /// Say what became of each word
+    pub(super) report: Option<PathBuf>,
+    /// Say what became of each word, or of everything in the mesh
     #[arg(short, long)]
-    verbose: bool,
+    pub(super) verbose: bool,
     #[command(flatten)]
-    messages: MessageArgs,
+    pub(super) messages: MessageArgs,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -139,16 +142,38 @@ enum PlaneSignArg {
     Opposite,
 }
 
+impl ConvertArgs {
+    /// An option that only the arsenal family knows.
+    pub(super) fn arsenal_option(&self) -> Option<&'static str> {
+        let options = [
+            ("--scene", self.scene.is_some()),
+            ("--dialect", self.dialect.is_some()),
+            ("--basis", self.basis.is_some()),
+            ("--angle", self.angle.is_some()),
+        ];
+        options.into_iter().find(|(_, is_given)| *is_given).map(|(name, _)| name)
+    }
+
+    /// Whether warnings are errors.
+    pub(super) fn denies_warnings(&self) -> bool {
+        self.deny.is_some()
+    }
+}
+
 /// Converts a scene.
 pub fn run(args: &ConvertArgs) -> Exit {
     if let Some(conflict) = conflict(args) {
         return fail(conflict);
     }
     let name = args.input.file_name().map_or("scene".into(), |name| name.to_string_lossy().into_owned());
-    let text = match session::read_bytes(&args.input) {
-        Ok(bytes) => decoded(&bytes),
+    let bytes = match session::read_bytes(&args.input) {
+        Ok(bytes) => bytes,
         Err(reason) => return fail(reason),
     };
+    if crate::convert::is_mesh(&name, &bytes) {
+        return convert_mesh::run(args, &bytes, &name);
+    }
+    let text = decoded(&bytes);
     if is_snell(&text) {
         let shown = args.input.display();
         return fail(format_args!(
@@ -210,12 +235,12 @@ fn is_snell(text: &str) -> bool {
 }
 
 /// Whether a path stands for standard input or output.
-fn is_standard(path: &Path) -> bool {
+pub(super) fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
 /// The file to write to, unless that is standard output.
-fn file(path: &Option<PathBuf>) -> Option<&Path> {
+pub(super) fn file(path: &Option<PathBuf>) -> Option<&Path> {
     path.as_deref().filter(|path| !is_standard(path))
 }
 

@@ -7,6 +7,7 @@ mod by_line;
 mod check;
 mod compare;
 mod convert;
+mod convert_mesh;
 mod doc;
 mod explain;
 mod fmt;
@@ -55,7 +56,7 @@ enum Command {
     Compare(compare::CompareArgs),
     /// Measure what accuracy costs in time: error against seconds, as a table and a page with plots
     Study(study::StudyArgs),
-    /// Turn an arsenal.txt scene into a .snell scene
+    /// Turn a mesh file or an arsenal.txt scene into a .snell scene
     Convert(convert::ConvertArgs),
     /// Explain a word of the language, or list what a scene defines
     Doc(doc::DocArgs),

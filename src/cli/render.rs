@@ -177,6 +177,11 @@ pub fn one(
     bar.finish();
 
     let mut rendered = Rendered { scene: session.name.clone(), files: Vec::new(), ready, outcome };
+    if rendered.outcome.stats.passes == 0 && rendered.outcome.stopped_by == StoppedBy::Time {
+        return Err(fail(
+            "time was up among the photons of the first pass, and nothing was written; allow more time or fewer photons",
+        ));
+    }
     // Of nothing seen, no picture is better than a black one.
     if rendered.outcome.stats.passes > 0 {
         let paths: Result<Vec<PathBuf>, _> = write(&mut targets, args, &rendered)

@@ -5,6 +5,7 @@ use super::messages::Messages;
 use crate::check::Checked;
 use crate::diag::{Problems, Report, Style};
 use crate::ir::Camera;
+use crate::load::MeshImport;
 use crate::resolve::{Limits, Offer};
 use crate::source::{Disk, Files, Missing, SourceMap, Span};
 use std::io::{IsTerminal, Read};
@@ -89,10 +90,11 @@ impl Session {
         crate::resolve::survey(&program, &self.sources, &mut self.problems)
     }
 
-    /// Compiles the text and loads what it names, for all that is wrong with it.
-    pub fn inspect(&mut self) {
-        let Some(checked) = self.compile() else { return };
+    /// Compiles the text and loads what it names, for all that is wrong with it; what was read of mesh files.
+    pub fn inspect(&mut self) -> Vec<MeshImport> {
+        let Some(checked) = self.compile() else { return Vec::new() };
         let loaded = crate::load::load(&checked, &self.sources, &self.files, &mut self.problems);
+        let imports = loaded.iter().flat_map(|loaded| loaded.imports().cloned()).collect();
         if let Some(loaded) = loaded.filter(|_| !self.problems.has_errors()) {
             let plan = crate::plan::plan(&loaded, checked.cameras.first(), None);
             crate::plan::warn(&plan, &loaded, &mut self.problems);
@@ -101,6 +103,7 @@ impl Session {
                 crate::allow::doubt_idle(&self.sources, &mut self.problems);
             }
         }
+        imports
     }
 
     /// The same scene with one parameter more, as if it was opened anew.

@@ -10,6 +10,7 @@ mod dialect;
 mod fields;
 mod gravity;
 mod log;
+mod mesh;
 mod mistake;
 mod model;
 mod notebook;
@@ -26,6 +27,7 @@ mod tests;
 
 pub use asset::{AssetFinder, DiskFinder, Search};
 pub use dialect::{Detection, Dialect};
+pub use mesh::{MeshConversion, Places, convert_mesh, is_mesh};
 pub use mistake::Mistake;
 pub use notebook::ConvertError;
 pub use report::{Fate, Outcome};

@@ -126,6 +126,7 @@ const PAGES: &[Page] = pages! {
         bad_picture: Error,
         mesh_note: Warning,
         missing_file: Error,
+        no_part: Error,
         outside: Error,
         skipped_file: Warning,
         unreadable: Error,
@@ -136,7 +137,7 @@ const PAGES: &[Page] = pages! {
     }
     plan {
         classic_only: Error,
-        endless_photons: Warning,
+        endless_photons: Error,
         photons_without_receiver: Warning,
     }
     resolve {

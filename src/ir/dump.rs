@@ -257,8 +257,10 @@ fn shape_kind(kind: &ShapeKind) -> String {
         ShapeKind::Triangle { corners: [a, b, c] } => {
             format!("triangle {} {} {}", point(a.value), point(b.value), point(c.value))
         }
-        ShapeKind::Mesh { file, scale, smooth, skip_missing } => {
-            format!("mesh \"{}\" scale {} smooth {smooth:?} skip {skip_missing}", file.value, scale.value)
+        ShapeKind::Mesh { file, part, scale, smooth, skip_missing } => {
+            let part = part.as_ref().map_or(String::new(), |part| format!(" part \"{}\"", part.value));
+            let file = &file.value;
+            format!("mesh \"{file}\"{part} scale {} smooth {smooth:?} skip {skip_missing}", scale.value)
         }
         ShapeKind::Cone { base, axis, radius, top_radius, caps } => {
             let top = top_radius.map_or(String::new(), |top| format!(" top {}", number(top.value)));

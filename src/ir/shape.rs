@@ -69,6 +69,8 @@ pub enum ShapeKind {
     Mesh {
         /// The file as written, with the place of the string.
         file: Spanned<String>,
+        /// Which part of it alone.
+        part: Option<Spanned<String>>,
         /// A factor on its coordinates, which count as metres.
         scale: Spanned<f64>,
         /// Whether normals are interpolated; `None`: as the file says.

@@ -67,7 +67,9 @@ pub enum LoadError {
     #[error("`{name}` is not a mesh that can be rendered: {reason}")]
     #[diagnostic(
         code(snell::load::bad_mesh),
-        help("a mesh is an OBJ file with `v` and `f` lines; mend it, or export it again")
+        help(
+            "a mesh is an OBJ file with `v` and `f` lines, or glTF 2 (.gltf, .glb); mend it, or export it again"
+        )
     )]
     BadMesh {
         /// As written.
@@ -77,6 +79,21 @@ pub enum LoadError {
         #[label("named here")]
         #[expect(missing_docs, reason = "the label says it")]
         used: Span,
+    },
+    /// A mesh without the part that the scene asks for.
+    #[error("`{name}` has no part that is named `{part}`")]
+    #[diagnostic(code(snell::load::no_part))]
+    NoPart {
+        /// As written.
+        name: String,
+        /// The name of the part.
+        part: String,
+        #[label("asked for here")]
+        #[expect(missing_docs, reason = "the label says it")]
+        used: Span,
+        #[help]
+        #[expect(missing_docs, reason = "the help says it")]
+        help: String,
     },
     /// Not a table of lens surfaces.
     #[error("`{name}` is not a lens: {reason}")]
@@ -111,7 +128,7 @@ pub enum LoadError {
         used: Span,
     },
     /// Read, but not quite as the file says.
-    #[error("`{name}`: {note}")]
+    #[error("`{name}` is read {note}")]
     #[diagnostic(code(snell::load::mesh_note), severity(warning))]
     MeshNote {
         /// As written.

@@ -3,8 +3,9 @@
 //! What no object, light or environment uses is not even opened.
 
 mod error;
+mod mesh;
 
-use crate::asset::{self, LensTable, Model, ModelMaterial, lens, obj, picture};
+use crate::asset::{self, LensTable, ModelMaterial, lens, picture};
 use crate::check::{self, Checked, MeshPart, Meshes, OwnMaterial};
 use crate::diag::Problems;
 use crate::ir::light::EnvironmentRadiance;
@@ -12,7 +13,9 @@ use crate::ir::material::Input;
 use crate::ir::{Handle, Heights, Lens, Material, Scene, ShapeKind, Texture, TextureKind};
 use crate::source::{Files, SourceMap, Span, Spanned};
 pub use error::LoadError;
+pub use mesh::{LoadedMesh, MeshImport, open_beside};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -22,18 +25,13 @@ pub struct Loaded<'a> {
     pub scene: &'a Scene,
     meshes: FxHashMap<usize, Arc<LoadedMesh>>,
     pictures: FxHashMap<usize, PictureFile>,
+    /// By mesh, the pictures of its own materials, where those are seen.
+    model_pictures: FxHashMap<usize, Vec<Option<PictureFile>>>,
+    imports: Vec<MeshImport>,
     /// Lenses by where the scene names them.
     lenses: FxHashMap<Span, LensTable>,
     /// Every file that was read, so that no output replaces one.
     pub files: Vec<PathBuf>,
-}
-
-/// A mesh file that was read.
-pub struct LoadedMesh {
-    /// Its contents.
-    pub model: Model,
-    /// For each of its materials, the picture of `map_Kd`.
-    pub maps: Vec<Option<PictureFile>>,
 }
 
 /// A picture whose pixels have not been read yet.
@@ -49,6 +47,29 @@ pub struct PictureFile {
     pub width: u32,
     /// Rows.
     pub height: u32,
+    /// Whether it says how much there is of each pixel.
+    pub has_alpha: bool,
+    /// Its bytes, where they are part of another file; `path` then only tells it from others.
+    pub bytes: Option<Arc<[u8]>>,
+}
+
+impl PictureFile {
+    /// A picture on its own.
+    fn new(path: PathBuf, name: String, span: Span, header: picture::Header) -> Self {
+        let picture::Header { width, height, has_alpha } = header;
+        Self { path, name, span, width, height, has_alpha, bytes: None }
+    }
+
+    /// The bytes of the file.
+    ///
+    /// # Errors
+    /// Whatever the system says.
+    pub fn read(&self, files: &dyn Files) -> std::io::Result<Cow<'_, [u8]>> {
+        match &self.bytes {
+            Some(bytes) => Ok(Cow::Borrowed(bytes)),
+            None => files.read(&self.path).map(Cow::Owned),
+        }
+    }
 }
 
 impl Loaded<'_> {
@@ -64,6 +85,16 @@ impl Loaded<'_> {
             TextureKind::Image(image) if !self.pictures.contains_key(&index) => Some(&image.file),
             _ => None,
         })
+    }
+
+    /// A picture of a mesh's own materials; `None` when it was left out.
+    pub fn model_picture(&self, mesh: &LoadedMesh, picture: usize) -> Option<&PictureFile> {
+        self.model_pictures.get(&mesh.key())?.get(picture)?.as_ref()
+    }
+
+    /// What became of what the mesh files hold: for each its name, what was read, and a line for each fate.
+    pub fn imports(&self) -> impl Iterator<Item = &MeshImport> {
+        self.imports.iter()
     }
 
     /// The picture of a texture; `None` when it was left out.
@@ -90,8 +121,9 @@ impl Meshes for Loaded<'_> {
 /// What a material of a mesh file does to light.
 fn own_material(material: Option<&ModelMaterial>) -> OwnMaterial {
     match material {
-        Some(material) if material.shines() => OwnMaterial::Shining,
-        Some(material) if material.is_clear() => OwnMaterial::Clear,
+        Some(material) if material.look.shines() => OwnMaterial::Shining,
+        Some(material) if material.look.is_pierced() => OwnMaterial::Pierced,
+        Some(material) if material.look.is_clear() => OwnMaterial::Clear,
         _ => OwnMaterial::Opaque,
     }
 }
@@ -111,6 +143,8 @@ pub fn load<'a>(
             scene,
             meshes: FxHashMap::default(),
             pictures: FxHashMap::default(),
+            model_pictures: FxHashMap::default(),
+            imports: Vec::new(),
             lenses: FxHashMap::default(),
             files: Vec::new(),
         },
@@ -148,8 +182,8 @@ struct Loader<'a, 'b> {
     files: &'b dyn Files,
     problems: &'b mut Problems,
     loaded: Loaded<'a>,
-    /// Meshes by path, so that a file named twice is read once; `None` for one that was reported.
-    models: FxHashMap<PathBuf, Option<Arc<LoadedMesh>>>,
+    /// Meshes by path and part, so that a file named twice is read once; `None` for one that was reported.
+    models: FxHashMap<(PathBuf, Option<String>), Option<Arc<LoadedMesh>>>,
     /// Shapes, materials, textures, and meshes rendered in their own materials: many objects share one.
     seen_shapes: FxHashSet<usize>,
     seen_materials: FxHashSet<usize>,
@@ -164,7 +198,7 @@ impl Loader<'_, '_> {
         if let ShapeKind::Heightfield { heights: Heights::Image(texture), .. } = &scene.shapes[handle].kind {
             return self.heights(texture.value);
         }
-        let ShapeKind::Mesh { file, skip_missing, .. } = &scene.shapes[handle].kind else { return };
+        let ShapeKind::Mesh { file, part, skip_missing, .. } = &scene.shapes[handle].kind else { return };
         if !self.seen_shapes.insert(handle.index()) {
             return;
         }
@@ -175,7 +209,7 @@ impl Loader<'_, '_> {
             left_out: "the mesh is left out",
         };
         let Some(path) = self.locate(&what) else { return };
-        if let Some(mesh) = self.mesh_at(path, &what) {
+        if let Some(mesh) = self.mesh_at(path, &what, part.as_ref()) {
             self.loaded.meshes.insert(handle.index(), mesh);
         }
     }
@@ -194,88 +228,6 @@ impl Loader<'_, '_> {
         let (name, used) = (picture.name.clone(), picture.span);
         self.problems.push(LoadError::BadPicture { name, reason: reason.to_owned(), used });
         self.failed = true;
-    }
-
-    fn mesh_at(&mut self, path: PathBuf, what: &Wanted<'_>) -> Option<Arc<LoadedMesh>> {
-        if let Some(known) = self.models.get(&path) {
-            return known.clone();
-        }
-        let mesh = self.read_mesh(&path, what).map(Arc::new);
-        self.failed |= mesh.is_none();
-        self.models.insert(path, mesh.clone());
-        mesh
-    }
-
-    fn read_mesh(&mut self, path: &Path, what: &Wanted<'_>) -> Option<LoadedMesh> {
-        let bytes = self.read(path, what)?;
-        let beside =
-            |name: &str| self.files.locate(path, name).ok().and_then(|path| self.files.read(&path).ok());
-        let model = match obj::read(&bytes, beside) {
-            Ok(model) => model,
-            Err(error) => {
-                let (name, reason) = (what.name.to_owned(), error.to_string());
-                self.problems.push(LoadError::BadMesh { name, reason, used: what.span });
-                return None;
-            }
-        };
-        self.mention(&model, what);
-        let maps =
-            model.materials.iter().map(|m| self.model_map(m.diffuse_map.as_deref()?, path, what)).collect();
-        Some(LoadedMesh { model, maps })
-    }
-
-    /// A picture that an MTL file names: one that is missing is worth a warning only, as the mesh can do without.
-    fn model_map(&mut self, name: &str, mesh: &Path, what: &Wanted<'_>) -> Option<PictureFile> {
-        let found = self.files.locate(mesh, name).ok().and_then(|path| {
-            let bytes = self.files.read(&path).ok()?;
-            let (width, height) = picture::size(&bytes).ok()?;
-            self.loaded.files.push(path.clone());
-            Some(PictureFile { path, name: name.to_owned(), span: what.span, width, height })
-        });
-        if found.is_none() {
-            let note = format!("its texture `{name}` cannot be read and is left out");
-            self.note(what, note, "put the texture beside the mesh, or give the object a `material`");
-        }
-        found
-    }
-
-    fn mention(&mut self, model: &Model, what: &Wanted<'_>) {
-        let notes = &model.notes;
-        if notes.degenerate > 0 {
-            let note = match notes.degenerate {
-                1 => "one of its triangles has no area and is left out".to_owned(),
-                many => format!("{many} of its triangles have no area and are left out"),
-            };
-            let help = "nothing is lost: clean the mesh, or write `allow(mesh_note, \"harmless\")` before it";
-            self.note(what, note, help);
-        }
-        if notes.partial_uvs > 0 {
-            let note = "some faces have no texture points, so all of that group's are ignored".to_owned();
-            self.note(what, note, "give every face corner a `vt` index");
-        }
-        if notes.partial_normals > 0 {
-            let note = "some faces have no normals, so all of that group's are ignored".to_owned();
-            self.note(what, note, "give every face corner a `vn` index, or write `smooth: true`");
-        }
-    }
-
-    /// A mesh whose object says nothing of a material: now its own ones matter.
-    fn own_materials(&mut self, handle: Handle<crate::ir::Shape>) {
-        let scene = self.loaded.scene;
-        let ShapeKind::Mesh { file, skip_missing, .. } = &scene.shapes[handle].kind else { return };
-        let Some(mesh) = self.loaded.meshes.get(&handle.index()).cloned() else { return };
-        if !self.seen_models.insert(handle.index()) {
-            return;
-        }
-        let what = Wanted { name: &file.value, span: file.span, skip: *skip_missing, left_out: "" };
-        for file in &mesh.model.notes.missing_mtl {
-            let note = format!("its material file `{file}` cannot be read, so its materials are grey");
-            self.note(&what, note, "put it beside the mesh, or give the object a `material`");
-        }
-    }
-
-    fn note(&mut self, what: &Wanted<'_>, note: String, help: &'static str) {
-        self.problems.push(LoadError::MeshNote { name: what.name.to_owned(), note, used: what.span, help });
     }
 
     fn material(&mut self, handle: Handle<Material>) {
@@ -318,8 +270,8 @@ impl Loader<'_, '_> {
     fn read_header(&mut self, path: PathBuf, what: &Wanted<'_>) -> Option<PictureFile> {
         let bytes = self.read(&path, what)?;
         let name = what.name.to_owned();
-        match picture::size(&bytes) {
-            Ok((width, height)) => Some(PictureFile { path, name, span: what.span, width, height }),
+        match picture::header(&bytes) {
+            Ok(header) => Some(PictureFile::new(path, name, what.span, header)),
             Err(error) => {
                 self.problems.push(LoadError::BadPicture {
                     name,

@@ -1,12 +1,13 @@
 //! Materials and textures, each lowered once; pictures are decoded once a file.
 
+mod model;
 mod texture;
 
-use crate::asset::{ModelMaterial, picture};
+use crate::asset::picture;
 use crate::ir::light::{Brightness, EnvironmentRadiance};
 use crate::ir::material::{MaterialKind, MetalColor};
 use crate::ir::{self, Handle};
-use crate::load::{LoadError, Loaded, LoadedMesh, PictureFile};
+use crate::load::{LoadError, Loaded, LoadedMesh};
 use crate::math::Rgb;
 use crate::render::bsdf::{self, Glass, Material, Principled, Relief};
 use crate::render::light::{Environment, EnvironmentRadiance as Radiance};
@@ -20,8 +21,6 @@ use texture::{Reading, Slot};
 
 /// The albedo of what says nothing about its material.
 const GRAY: Rgb = Rgb::gray(0.5);
-/// The refractive index of a model's transparent material that states none.
-const GLASS_IOR: f32 = 1.5;
 
 /// The engine's materials and textures as they come up.
 pub struct Materials<'a> {
@@ -216,42 +215,6 @@ impl<'a> Materials<'a> {
         }
     }
 
-    /// A material of a mesh file.
-    pub fn of_model(&mut self, mesh: &LoadedMesh, index: usize) -> MaterialId {
-        let key = (std::ptr::from_ref(mesh).addr(), index);
-        if let Some(&known) = self.by_model.get(&key) {
-            return known;
-        }
-        let map = mesh.maps[index].as_ref();
-        let lowered = self.lower_model(&mesh.model.materials[index], map);
-        let id = self.add(lowered);
-        self.by_model.insert(key, id);
-        id
-    }
-
-    /// MTL says little: it shines, is see-through, has a highlight, or is matt.
-    fn lower_model(&mut self, material: &ModelMaterial, map: Option<&PictureFile>) -> Material {
-        let color =
-            |written: Option<[f32; 3]>| written.map(Rgb::from).filter(|c| c.is_valid() && !c.is_black());
-        if let Some(radiance) = color(material.emission) {
-            return Material::Emissive { radiance, two_sided: false };
-        }
-        if material.is_clear() {
-            let ior = material.ior.filter(|ior| *ior >= 1.0).unwrap_or(GLASS_IOR);
-            return Material::Glass(Glass::of_ior(ior));
-        }
-        let diffuse = match map.and_then(|map| self.image(map, Reading::DISPLAY)) {
-            Some(image) => self.plain_texture(image),
-            None => bsdf::Input::Constant(albedo(material.diffuse.map_or(GRAY, Rgb::from))),
-        };
-        match (color(material.specular), material.shininess) {
-            (Some(specular), Some(shininess)) if shininess >= 1.0 => {
-                Material::Phong { diffuse, specular: bsdf::Input::Constant(albedo(specular)), shininess }
-            }
-            _ => Material::Diffuse { color: diffuse },
-        }
-    }
-
     /// The environment; `None` when its picture was left out.
     pub fn environment(&mut self, environment: &ir::Environment) -> Option<Environment> {
         let radiance = match environment.radiance {
@@ -271,7 +234,7 @@ impl<'a> Materials<'a> {
     /// The brightness of a picture as it is stored, from 0 to 1: how many in a row, and row by row.
     pub fn heights(&mut self, texture: Handle<ir::Texture>) -> Option<(usize, Vec<f32>)> {
         let file = self.loaded.picture(texture)?.clone();
-        let bytes = self.files.read(&file.path).map_err(|error| error.to_string());
+        let bytes = file.read(self.files).map_err(|error| error.to_string());
         match bytes.and_then(|bytes| picture::brightness(&bytes).map_err(|error| error.to_string())) {
             Ok(values) => Some((file.width as usize, values)),
             Err(reason) => {
@@ -280,9 +243,4 @@ impl<'a> Materials<'a> {
             }
         }
     }
-}
-
-/// Reflectances of model files are often out of range; they are brought to where no energy is made.
-fn albedo(color: Rgb) -> Rgb {
-    color.map(|x| x.clamp(0.0, 1.0))
 }

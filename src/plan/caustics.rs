@@ -11,10 +11,10 @@ use std::f64::consts::FRAC_PI_2;
 
 /// A metal smoother than this, and a Phong lobe narrower, gathers light into caustics rather than spreading it: the
 /// engine's own threshold, which draws the line between photons and paths.
-const SHARP_ROUGHNESS: f32 = 0.5;
-const SHARP_SHININESS: f64 = 32.0;
+pub const SHARP_ROUGHNESS: f32 = 0.5;
+pub const SHARP_SHININESS: f64 = 32.0;
 /// A glossy lobe weaker than this throws nothing that is worth photons.
-const LEAST_SPECULAR: f32 = 0.1;
+pub const LEAST_SPECULAR: f32 = 0.1;
 
 /// An object that throws caustics where light meets it.
 pub struct Caster {

@@ -5,6 +5,7 @@
 use super::absent;
 use super::caustics::{self, Caster};
 use super::effect::Effect;
+use super::look;
 use crate::check::{Region, region};
 use crate::ir::light::{EnvironmentRadiance, LightKind};
 use crate::ir::material::{Input, MaterialKind, Projection, TextureKind};
@@ -12,6 +13,7 @@ use crate::ir::{Camera, Handle, Lens, Material, Object, RevolveMethod, Scene, Sh
 use crate::load::{Loaded, LoadedMesh};
 use crate::source::Span;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// An effect with its users.
@@ -171,25 +173,16 @@ impl Found<'_> {
     fn own_materials(&mut self, shape: Handle<Shape>, span: Span) -> Option<Span> {
         let mesh = self.loaded.mesh(shape)?.clone();
         let mut throws = None;
-        for (material, map) in mesh.model.materials.iter().zip(&mesh.maps) {
-            if material.shines() {
-                self.add(Effect::MeshLights, span);
-            } else if material.is_clear() {
-                self.add_all(&[Effect::Specular, Effect::Dielectrics], span);
-                throws = Some(span);
-            } else {
+        let own: BTreeSet<Option<usize>> = mesh.model.parts.iter().map(|part| part.material).collect();
+        for material in own {
+            let Some(index) = material else {
                 self.add(Effect::Indirect, span);
-            }
-            if material.shininess.is_some() {
-                self.add(Effect::RoughSpecular, span);
-                self.may_throw = true;
-            }
-            if map.is_some() {
-                self.add(Effect::Textures, span);
-            }
-        }
-        if mesh.model.parts.iter().any(|part| part.material.is_none()) {
-            self.add(Effect::Indirect, span);
+                continue;
+            };
+            let called = look::called(&mesh.model.materials[index].look);
+            self.add_all(&called.effects, span);
+            self.may_throw |= called.may_throw;
+            throws = throws.or(called.casts.then_some(span));
         }
         throws
     }
@@ -280,7 +273,7 @@ impl Found<'_> {
 }
 
 /// What the engine takes for a mirror: α = roughness² below 10⁻³. Near it, both are called for.
-const MIRROR_ROUGHNESS: [f32; 2] = [0.031, 0.032];
+pub const MIRROR_ROUGHNESS: [f32; 2] = [0.031, 0.032];
 
 /// How sharply a surface of this roughness scatters.
 fn gloss(roughness: &Input) -> &'static [Effect] {

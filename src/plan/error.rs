@@ -23,10 +23,9 @@ pub enum PlanWarning {
         used: Span,
     },
     /// Photons are finite in number, the plane is not.
-    #[error("photons from infinitely far cannot cover a plane without end: `ppm` makes it too dark")]
+    #[error("photons from infinitely far cannot cover a plane without end: `ppm` would leave it dark")]
     #[diagnostic(
         code(snell::plan::endless_photons),
-        severity(warning),
         help("use `hybrid`, `pt` or `auto`, or a `quad` instead of the plane")
     )]
     EndlessPhotons {

@@ -5,6 +5,7 @@ mod caustics;
 mod effect;
 mod effects;
 mod error;
+mod look;
 mod wanted;
 
 use crate::diag::Problems;

@@ -103,6 +103,11 @@ impl Camera {
         self.height
     }
 
+    /// Where rays start, or about where, in metres.
+    pub fn position(&self) -> Vec3 {
+        self.position
+    }
+
     /// The angle across a pixel in the middle of the picture, in radians: what it covers grows by that for each metre.
     pub fn pixel_angle(&self) -> f32 {
         self.half_width.length() * 2.0 / self.width as f32

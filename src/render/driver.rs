@@ -72,7 +72,8 @@ pub enum GatherRadius {
 pub struct Stop {
     /// After so many passes.
     pub passes: Option<u32>,
-    /// After so many seconds. A pass that would end late is not begun, but for the first.
+    /// After so many seconds. A pass that would end late is not begun, and one that turns out to is dropped; but the first
+    /// one's camera paths are finished, if its photons were in time.
     pub seconds: Option<f64>,
     /// When the error of the picture is below this, by the upper end of its interval.
     pub error: Option<f64>,
@@ -219,18 +220,21 @@ fn run<I: Integrator>(
         let pass = Pass { index: film.passes(), seed: settings.seed };
 
         let prepare = Instant::now();
+        let is_late = || stopping.is_overdue(start.elapsed().as_secs_f64());
         if world.is_watched {
             ledger::photons(true);
         }
-        integrator.begin_pass(pass, &mut stats.counters, &|| monitor.cancelled());
+        integrator.begin_pass(pass, &mut stats.counters, &|| monitor.cancelled() || is_late());
         if world.is_watched {
             ledger::photons(false);
         }
         stats.prepare_seconds += prepare.elapsed().as_secs_f64();
 
         let camera = Instant::now();
-        let Some(done) = render_tiles(&integrator, world, &tiles, pass, monitor) else {
-            break StoppedBy::Cancelled;
+        let may_be_late = pass.index == 0 && !is_late();
+        let stops = || monitor.cancelled() || !may_be_late && is_late();
+        let Some(done) = render_tiles(&integrator, world, &tiles, pass, &stops) else {
+            break if monitor.cancelled() { StoppedBy::Cancelled } else { StoppedBy::Time };
         };
         stats.camera_seconds += camera.elapsed().as_secs_f64();
 
@@ -257,18 +261,15 @@ struct Done {
     seconds: f64,
 }
 
-/// All tiles of a pass, in their order; `None` when cancelled.
+/// All tiles of a pass, in their order; `None` when it `stops` before they are done.
 fn render_tiles<I: Integrator>(
     integrator: &I,
     world: &World,
     tiles: &[Region],
     pass: Pass,
-    monitor: &dyn Monitor,
+    stops: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<Done>> {
-    tiles
-        .par_iter()
-        .map(|&tile| (!monitor.cancelled()).then(|| render_tile(integrator, world, tile, pass)))
-        .collect()
+    tiles.par_iter().map(|&tile| (!stops()).then(|| render_tile(integrator, world, tile, pass))).collect()
 }
 
 /// One sample for every pixel of a tile.

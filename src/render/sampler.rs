@@ -35,6 +35,8 @@ pub enum Dim {
     PhotonTarget,
     /// Whether a direction counts as sharply or as widely scattered.
     Share(u32),
+    /// Whether a branch of a camera path that counts for little is lit.
+    Lit(u32),
 }
 
 impl Dim {
@@ -55,6 +57,7 @@ impl Dim {
             Self::Light(depth) => at(8, depth),
             Self::Roulette(depth) => at(9, depth),
             Self::Share(depth) => at(11, depth),
+            Self::Lit(depth) => at(13, depth),
         }
     }
 }
@@ -72,6 +75,20 @@ impl Sampler {
     pub fn new(seed: u64, stream: u32, item: u64, index: u32) -> Self {
         let key = mix(mix(mix(seed).wrapping_add(u64::from(stream))).wrapping_add(item));
         Self { key, index }
+    }
+
+    /// The numbers of a branch that leaves a path at its vertex number `depth`: independent of those of the path and of all
+    /// its other branches.
+    pub fn branch(&self, depth: u32) -> Self {
+        const BRANCH: u64 = 1 << 32; // apart from every name
+        Self { key: mix(self.key ^ (BRANCH | u64::from(depth))), ..*self }
+    }
+
+    /// The numbers of part `i` of `count` into which a path is divided. All parts of all samples make one sequence, so
+    /// that they are spread evenly together.
+    pub fn part(&self, i: u32, count: u32) -> Self {
+        const PART: u64 = 2 << 32;
+        Self { key: mix(self.key ^ PART), index: self.index.wrapping_mul(count).wrapping_add(i) }
     }
 
     /// A number in [0, 1).

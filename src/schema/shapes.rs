@@ -94,7 +94,9 @@ const TORUS: &[Field] = &[
 const REACH: &[Choice] = &[one_of(&[&["top"], &["height"]])];
 
 const MESH: &[Field] = &[
-    field("file", Type::Text, "An OBJ file, beside the scene.").required().like("\"teapot.obj\""),
+    field("file", Type::Text, "An OBJ or glTF file, beside the scene.").required().like("\"teapot.obj\""),
+    field("part", Type::Text, "Only this: what has a material in OBJ, a mesh in glTF, in its own frame.")
+        .like("\"lid\""),
     field("scale", Type::Number, "A factor on its coordinates, which count as metres.").or(1.0).within(SIZE),
     field("smooth", Type::Bool, "Whether normals are interpolated; without it, as the file says."),
     field("missing", MISSING, "Whether a missing file is a mistake, or leaves the mesh out.")

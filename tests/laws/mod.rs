@@ -1,6 +1,7 @@
 //! What physics and sampling theory promise.
 
 mod choice;
+mod forks;
 mod lamps;
 mod light;
 mod scattering;

@@ -53,8 +53,10 @@ pub struct MeshPart<'a> {
 pub enum OwnMaterial {
     /// Lets no light through.
     Opaque,
-    /// Lets light through.
+    /// Lets light through into a body.
     Clear,
+    /// Lets light through and has no inside: a pane, or what has holes.
+    Pierced,
     /// Shines.
     Shining,
 }

@@ -51,6 +51,7 @@ impl Stuff {
         match part {
             OwnMaterial::Opaque => Self::MATT,
             OwnMaterial::Clear => Self { is_specular: true, ..Self::default() },
+            OwnMaterial::Pierced => Self { is_specular: true, is_rough: true, ..Self::default() },
             OwnMaterial::Shining => Self { shines: true, ..Self::default() },
         }
     }

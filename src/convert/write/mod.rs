@@ -1,14 +1,14 @@
 //! Model → Snell text, as a person would have written it.
 
 mod glossary;
-mod layout;
+pub(super) mod layout;
 mod light;
 mod material;
 mod middle;
-mod names;
+pub(super) mod names;
 mod object;
 mod picture;
-mod text;
+pub(super) mod text;
 
 use super::dialect::Dialect;
 use super::model::{Background, Camera, Scene};

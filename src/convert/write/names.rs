@@ -142,7 +142,7 @@ fn stem(path: &str) -> String {
 }
 
 /// The text with everything that cannot stand in a name replaced; Snell's names are ASCII.
-fn identifier(text: &str) -> String {
+pub fn identifier(text: &str) -> String {
     let fits = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
     let name: String = text.chars().map(fits).collect();
     if name.is_empty() { "unnamed".into() } else { name }

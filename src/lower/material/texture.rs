@@ -24,8 +24,8 @@ pub(super) enum Slot {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Reading {
     /// Whether those of eight bits are plain, not display values.
-    linear: bool,
-    channel: Channel,
+    pub(super) linear: bool,
+    pub(super) channel: Channel,
 }
 
 impl Reading {
@@ -93,21 +93,7 @@ impl Materials<'_> {
         bsdf::Input::Texture(id)
     }
 
-    /// A picture over the surface's own texture points.
-    pub(super) fn plain_texture(&mut self, image: Arc<Image>) -> bsdf::Input {
-        let id = self.add_texture(Texture::Image(ImageTexture {
-            image,
-            wrap: Wrap::Repeat,
-            filter: ImageFilter::Linear,
-            uv_scale: Vec2::ONE,
-            uv_turn: Vec2::X,
-            uv_offset: Vec2::ZERO,
-            projection: texture::Projection::Uv,
-        }));
-        bsdf::Input::Texture(id)
-    }
-
-    fn add_texture(&mut self, texture: Texture) -> TextureId {
+    pub(super) fn add_texture(&mut self, texture: Texture) -> TextureId {
         self.textures.push(texture);
         TextureId(self.textures.len() as u32 - 1)
     }
@@ -153,7 +139,7 @@ impl Materials<'_> {
         if let Some(known) = self.images.get(&key) {
             return known.clone();
         }
-        let bytes = self.files.read(&file.path).map_err(|error| error.to_string());
+        let bytes = file.read(self.files).map_err(|error| error.to_string());
         let image = match bytes.and_then(|bytes| read(&bytes, reading)) {
             Ok(image) => Some(Arc::new(image)),
             Err(reason) => {

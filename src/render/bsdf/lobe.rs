@@ -1,6 +1,7 @@
 //! One way of scattering, in the local frame: the normal is +z, and the viewer is above the horizon.
 
 use super::conductor::Conductor;
+use super::dielectric::fresnel_dielectric;
 use super::fresnel::Reflectance;
 use super::pane::Pane;
 use super::rough_dielectric::RoughDielectric;
@@ -103,6 +104,15 @@ impl Lobe {
     /// Whether it looks at a number of its own to choose between ways.
     pub(super) fn has_choice(&self) -> bool {
         matches!(self, Self::Dielectric { .. } | Self::RoughDielectric(_) | Self::Pane(_))
+    }
+
+    /// The chance of being mirrored where the only other is to go through, each in one direction.
+    pub(super) fn mirrored_share(&self, wo: Vec3, side: Side) -> Option<f32> {
+        match *self {
+            Self::Dielectric { ior, .. } => Some(fresnel_dielectric(f64::from(wo.z), side.eta(ior)).0 as f32),
+            Self::Pane(pane) if pane.is_specular() => Some(pane.reflected(wo.z)),
+            _ => None,
+        }
     }
 
     /// Whether light may pass through into more than one direction.

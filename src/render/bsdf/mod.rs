@@ -234,6 +234,14 @@ impl Bsdf {
         self.view(wo).map_or(0.0, |view| self.lobes().iter().map(|lobe| lobe.albedo(view.wo)).sum())
     }
 
+    /// Where light can only be mirrored or go through, each in one direction: the chance of being mirrored, for which
+    /// [`Self::sample`] wants a `u_lobe` below it.
+    pub fn mirrored_share(&self, wo: Vec3) -> Option<f32> {
+        let [lobe] = self.lobes() else { return None };
+        let view = self.view(wo)?;
+        lobe.mirrored_share(view.wo, view.side())
+    }
+
     /// Whether [`Self::sample`] looks at `u_lobe`: not with a single lobe that only reflects.
     pub fn has_choice(&self) -> bool {
         !matches!(self.lobes(), [lobe] if !lobe.has_choice())

@@ -27,7 +27,7 @@ impl Pane {
 
     /// The share reflected, off the one side or the other of the glass however often: 2R / (1 + R), the sum of
     /// R + T² R + T² R³ + … with T = 1 − R (Stokes 1862).
-    fn reflected(&self, cos: f32) -> f32 {
+    pub(super) fn reflected(&self, cos: f32) -> f32 {
         let (once, _) = fresnel_dielectric(f64::from(cos), f64::from(self.ior));
         (2.0 * once / (1.0 + once)) as f32
     }

@@ -44,6 +44,12 @@ impl Stopping {
         self.next_look = next_look(passes, &estimate, target);
         None
     }
+
+    /// Whether so much time has passed that a pass under way is late.
+    pub fn is_overdue(&self, seconds: f64) -> bool {
+        let (least, share) = MOST_LATE;
+        self.stop.seconds.is_some_and(|most| seconds > most + least.max(share * most))
+    }
 }
 
 /// Whether the next pass would end later than allowed, if it takes as long as the others did.

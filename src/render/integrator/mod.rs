@@ -1,8 +1,13 @@
 //! How the radiance along a camera ray is found.
 
+mod cells;
 mod classic;
+mod fork;
+mod gather;
 mod path;
 mod ppm;
+mod vertex;
+mod weight;
 
 pub use classic::{Classic, ClassicSettings, Shading};
 pub use path::PathTracer;
@@ -40,6 +45,12 @@ impl Pass {
     /// The numbers of the camera path through pixel `item`. Passes take turns among the streams of the film.
     pub fn camera_sampler(&self, item: u64) -> Sampler {
         Sampler::new(self.seed, self.index % STREAMS, item, self.index / STREAMS)
+    }
+
+    /// The numbers of a probe, counted from 0 in each pass: a path that tells about light for all of a pass.
+    pub fn probe_sampler(&self, probe: u32) -> Sampler {
+        const PROBE_STREAMS: u32 = 1 << 30; // apart from those of photons and camera paths
+        Sampler::new(self.seed, PROBE_STREAMS | self.index, 0, probe)
     }
 
     /// The numbers of a photon, counted from 0 in each pass; passes are independent of each other.

@@ -1,9 +1,15 @@
 //! Path tracing: paths from the camera, with light and bsdf sampling joined by multiple importance sampling.
 //!
-//! It may leave caustics to photons: each way of light then belongs to one of the two, see [`Caustics`].
+//! It may leave caustics to photons: each way of light then belongs to one of the two, see [`Caustics`]. Where what the
+//! camera sees is clear, paths fork, see [`fork`]; with photons, light that comes by way of two matt surfaces is
+//! gathered, see [`super::gather`].
 
+use super::fork::{self, MOST_WAITING, Way};
+use super::gather::{Gathering, MOST_GATHERS};
+use super::vertex::{Last, Vertex};
+use super::weight::{mis_weight, roulette};
 use super::{Counters, Integrator, Pass};
-use crate::math::{Ray, Rgb, Vec3};
+use crate::math::{Ray, Rgb, Vec2, Vec3};
 use crate::render::bsdf::{Bsdf, BsdfSample, MaterialId, Transport};
 use crate::render::driver::HybridSettings;
 use crate::render::effects::Effects;
@@ -16,29 +22,39 @@ use crate::render::world::World;
 
 /// A path tracer.
 pub struct PathTracer<'a> {
-    world: &'a World,
-    max_depth: u32,
+    pub(super) world: &'a World,
+    pub(super) max_depth: u32,
     /// What is left to photons.
-    caustics: Option<Caustics<'a>>,
+    pub(super) caustics: Option<Caustics<'a>>,
+    /// How light is gathered that comes by way of two matt surfaces.
+    pub(super) gathering: Option<Gathering>,
+    /// Whether paths fork.
+    forks: bool,
 }
 
-/// Where a path is.
-struct Vertex<'a> {
-    surface: &'a SurfacePoint,
-    bsdf: &'a Bsdf,
-    wo: Vec3,
-    depth: u32,
-    /// Whether a vertex before it scattered widely: photons fall there, not on the camera.
-    after_wide: bool,
-}
-
-/// The vertex a path left last: by what other strategy could light found next have been drawn from there?
-struct Last {
-    from: Viewpoint,
-    /// The density of the direction taken, per steradian; infinite if nothing else could have found it.
-    pdf: f32,
-    /// The surface, if it and all others back to one that scattered widely are sharp: light from here makes a caustic there.
-    sharp: Option<(MaterialId, PrimId)>,
+/// A path under way.
+#[derive(Clone)]
+pub(super) struct Walk {
+    pub ray: Ray,
+    pub sampler: Sampler,
+    /// Vertices so far.
+    pub depth: u32,
+    pub beta: Rgb,
+    /// The factor η² that refraction has taken from beta, and will give back.
+    pub eta_scale: f32,
+    pub last: Last,
+    pub media: Media,
+    /// Whether a vertex scattered widely.
+    pub after_wide: bool,
+    /// The width of what it covers, in metres, and by how much that grows for each metre.
+    pub footprint: f32,
+    pub angle: f32,
+    /// The share of what its camera ray sees that it stands for.
+    pub share: f32,
+    /// Whether nothing but clear surfaces lies between it and the camera: only then it forks.
+    pub is_clear: bool,
+    /// Whether it goes no further than to the next surface.
+    pub is_last: bool,
 }
 
 /// After a wide scattering, what a path covers grows by at least this for each metre: what photons bring there is spread
@@ -48,14 +64,24 @@ const WIDE_ANGLE: f32 = 0.003;
 impl<'a> PathTracer<'a> {
     /// A tracer of paths with at most `max_depth` vertices, the one on the light included and the camera not.
     pub fn new(world: &'a World, max_depth: u32) -> Self {
-        Self { world, max_depth, caustics: None }
+        Self { world, max_depth, caustics: None, gathering: None, forks: true }
     }
 
     /// One that leaves caustics to photons, if there are any.
     pub fn with_caustics(world: &'a World, settings: HybridSettings, max_depth: u32) -> Self {
         let has_any = world.effects.has(Effects::CAUSTICS);
         let caustics = has_any.then(|| Caustics::new(world, settings, max_depth)).flatten();
-        Self { world, max_depth, caustics }
+        let mut tracer = Self { caustics, ..Self::new(world, max_depth) };
+        if tracer.caustics.is_some() && world.effects.has(Effects::INDIRECT) {
+            tracer.gathering = Gathering::worthwhile(&tracer, settings.photon_count);
+        }
+        tracer
+    }
+
+    /// One whose paths never fork: of two ways, chance takes one. The same picture with more noise.
+    #[must_use]
+    pub fn without_forks(self) -> Self {
+        Self { forks: false, ..self }
     }
 }
 
@@ -64,81 +90,201 @@ impl Integrator for PathTracer<'_> {
         if let Some(caustics) = &mut self.caustics {
             caustics.begin_pass(pass, counters, cancelled);
         }
+        if let Some(mut gathering) = self.gathering.take() {
+            gathering.begin_pass(self, pass, counters, cancelled);
+            self.gathering = Some(gathering);
+        }
     }
 
     fn blur(&self) -> f64 {
         self.caustics.as_ref().map_or(0.0, Caustics::blur)
     }
 
-    fn radiance(&self, mut ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
-        let materials = &self.world.materials;
-        let mut radiance = Rgb::BLACK;
-        let mut beta = Rgb::WHITE;
-        let mut last = Last { from: Viewpoint { p: ray.o, n: None }, pdf: f32::INFINITY, sharp: None };
-        let mut media = Media::start(&self.world.materials, sampler);
-        let mut eta_scale = 1.0; // the factor η² that refraction has taken from beta, and will give back
-        let (mut after_wide, mut is_last) = (false, false);
-        let (mut footprint, mut angle) = (0.0, self.world.camera.pixel_angle());
-
-        for depth in 0..self.max_depth {
-            // Find the next vertex, or take what the sky sends and stop.
-            counters.rays += 1;
-            let Some(hit) = self.world.closest_hit(&ray) else {
-                return radiance + beta * self.sky(ray.d, &last);
-            };
-            let surface = self.world.interaction(&ray, &hit);
-            let wo = -ray.d;
-            beta *= media.transmittance(hit.t, materials);
-            footprint += angle * hit.t;
-
-            // Add light emitted here, then light straight from the lamps.
-            radiance += beta * self.emitted(&surface, wo, &last);
-            if depth + 1 == self.max_depth || is_last {
-                break;
-            }
-            let bsdf = self.world.bsdf_between(&surface, wo, &media);
-            let vertex = Vertex { surface: &surface, bsdf: &bsdf, wo, depth, after_wide };
-            if bsdf.is_smooth() {
-                radiance += beta * self.direct(&vertex, &media, sampler, counters);
-                if let Some(caustics) = &self.caustics {
-                    radiance += beta * caustics.radiance(&surface, &bsdf, wo, depth + 1, footprint);
-                }
-            }
-
-            // Follow one direction onwards.
-            let Some(next) = vertex.sample_bsdf(sampler) else { break };
-            beta *= next.weight;
-            eta_scale *= next.eta * next.eta;
-            ray = surface.spawn(next.wi);
-            is_last = !next.specular && !self.world.effects.has(Effects::INDIRECT);
-            last = Last {
-                from: vertex.viewpoint(),
-                pdf: if next.specular { f32::INFINITY } else { next.pdf },
-                sharp: None,
-            };
-            if self.caustics.is_some() {
-                let (is_sharp, share) = vertex.split(&next, sampler);
-                beta *= share;
-                if is_sharp {
-                    last.sharp = after_wide.then_some((surface.material, surface.prim));
-                } else {
-                    (after_wide, angle) = (true, angle.max(WIDE_ANGLE));
-                }
-            }
-            if next.through {
-                beta *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &self.world.materials);
-            }
-
-            // End dim paths early; the survivors carry their weight.
-            let worth = beta.max_component() * eta_scale;
-            let Some(survival) =
-                roulette(worth, depth, next.specular, || sampler.get_1d(Dim::Roulette(depth)))
-            else {
-                break;
-            };
-            beta /= survival;
+    fn radiance(&self, ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+        let mut waiting = Vec::new();
+        let mut radiance = self.follow(self.start(ray, sampler), &mut waiting, counters);
+        while let Some(walk) = waiting.pop() {
+            radiance += self.follow(walk, &mut waiting, counters);
         }
         radiance
+    }
+}
+
+impl PathTracer<'_> {
+    /// A path that leaves the camera.
+    pub(super) fn start(&self, ray: Ray, sampler: &Sampler) -> Walk {
+        Walk {
+            ray,
+            sampler: *sampler,
+            depth: 0,
+            beta: Rgb::WHITE,
+            eta_scale: 1.0,
+            last: Last { from: Viewpoint { p: ray.o, n: None }, pdf: f32::INFINITY, sharp: None },
+            media: Media::start(&self.world.materials, sampler),
+            after_wide: false,
+            footprint: 0.0,
+            angle: self.world.camera.pixel_angle(),
+            share: 1.0,
+            is_clear: true,
+            is_last: false,
+        }
+    }
+
+    /// Follows a path to its end: the light it finds. Other ways to go are left in `waiting`.
+    pub(super) fn follow(&self, mut walk: Walk, waiting: &mut Vec<Walk>, counters: &mut Counters) -> Rgb {
+        let mut radiance = Rgb::BLACK;
+        while walk.depth < self.max_depth {
+            // Find the next vertex, or take what the sky sends and stop.
+            counters.rays += 1;
+            let Some(hit) = self.world.closest_hit(&walk.ray) else {
+                return radiance + walk.beta * self.sky(walk.ray.d, &walk.last);
+            };
+            let surface = self.world.interaction(&walk.ray, &hit);
+            let wo = -walk.ray.d;
+            walk.pass_through(hit.t, self.world);
+
+            // Add light emitted here, then light straight from the lamps.
+            radiance += walk.beta * self.emitted(&surface, wo, &walk.last);
+            if walk.depth + 1 == self.max_depth || walk.is_last {
+                break;
+            }
+            let bsdf = self.world.bsdf_between(&surface, wo, &walk.media);
+            let vertex = walk.vertex(&surface, &bsdf, wo);
+            let mut lit = Rgb::BLACK;
+            if bsdf.is_smooth() {
+                if !walk.is_lit() {
+                    break;
+                }
+                if let Some(known) = self.gathered(&walk, &vertex, hit.t) {
+                    return radiance + walk.beta * known;
+                }
+                lit = self.lit(&walk, &vertex, counters);
+                radiance += walk.beta * lit;
+            }
+
+            // Follow one direction onwards, or several.
+            if self.go_on(&mut walk, &vertex, lit, waiting).is_none() {
+                break;
+            }
+        }
+        radiance
+    }
+
+    /// What lamps and photons send to a vertex and on to the viewer.
+    pub(super) fn lit(&self, walk: &Walk, vertex: &Vertex, counters: &mut Counters) -> Rgb {
+        let mut radiance = self.direct(vertex, &walk.media, &walk.sampler, counters);
+        if let Some(caustics) = &self.caustics {
+            let Vertex { surface, bsdf, wo, depth, .. } = *vertex;
+            radiance += caustics.radiance(surface, bsdf, wo, depth + 1, walk.footprint);
+        }
+        radiance
+    }
+
+    /// Moves a path on from a vertex; `None` if it ends there. Other ways to go are left in `waiting`.
+    fn go_on(&self, walk: &mut Walk, vertex: &Vertex, lit: Rgb, waiting: &mut Vec<Walk>) -> Option<()> {
+        let count = self.gather_count(walk, vertex, lit);
+        if count > 1 {
+            walk.beta /= count as f32;
+            for i in 1..count {
+                let sampler = walk.sampler.part(i, MOST_GATHERS);
+                let mut part = Walk { sampler, ..walk.clone() };
+                waiting.extend(self.scatter(&mut part, vertex).map(|()| part));
+            }
+            walk.sampler = walk.sampler.part(0, MOST_GATHERS);
+        } else if self.forks
+            && walk.is_clear
+            && waiting.len() < MOST_WAITING
+            && let Some(mirrored) = vertex.bsdf.mirrored_share(vertex.wo)
+        {
+            return self.fork(walk, vertex, mirrored, waiting);
+        }
+        self.scatter(walk, vertex)
+    }
+
+    /// Moves a path on both ways from a clear surface that mirrors a part of the light, or on one of them.
+    fn fork(&self, walk: &mut Walk, vertex: &Vertex, mirrored: f32, waiting: &mut Vec<Walk>) -> Option<()> {
+        let u = walk.sampler.get_1d(Dim::Lobe(walk.depth));
+        let [mirrored, through] = fork::ways(mirrored, walk.share, u);
+        let take = |Way { u_lobe, factor }: Way, sampler| {
+            let next = vertex.bsdf.sample(vertex.wo, Vec2::ZERO, u_lobe, Transport::Radiance)?;
+            let (beta, share) = (walk.beta * factor, walk.share * factor);
+            let mut branch = Walk { sampler, beta, share, ..walk.clone() };
+            self.step(&mut branch, vertex, &next).map(|()| branch)
+        };
+        let beside = if through.is_some() { walk.sampler.branch(walk.depth) } else { walk.sampler };
+        let mirrored = mirrored.and_then(|way| take(way, beside));
+        match through.and_then(|way| take(way, walk.sampler)) {
+            Some(through) => {
+                waiting.extend(mirrored);
+                *walk = through;
+            }
+            None => *walk = mirrored?,
+        }
+        Some(())
+    }
+
+    /// Moves a path on in a direction that its bsdf draws; `None` if it ends.
+    #[inline]
+    pub(super) fn scatter(&self, walk: &mut Walk, vertex: &Vertex) -> Option<()> {
+        let next = vertex.sample_bsdf(&walk.sampler)?;
+        self.step(walk, vertex, &next)
+    }
+
+    /// Moves a path on in a drawn direction; `None` if it ends.
+    #[inline]
+    fn step(&self, walk: &mut Walk, vertex: &Vertex, next: &BsdfSample) -> Option<()> {
+        let Vertex { surface, depth, .. } = *vertex;
+        walk.beta *= next.weight;
+        walk.eta_scale *= next.eta * next.eta;
+        walk.is_clear &= next.specular;
+        walk.is_last = !next.specular && !self.world.effects.has(Effects::INDIRECT);
+        walk.ray = surface.spawn(next.wi);
+        let pdf = if next.specular { f32::INFINITY } else { next.pdf };
+        walk.last = Last { from: vertex.viewpoint(), pdf, sharp: None };
+        if self.caustics.is_some() {
+            let (is_sharp, share) = vertex.split(next, &walk.sampler);
+            walk.beta *= share;
+            if is_sharp {
+                walk.last.sharp = walk.after_wide.then_some((surface.material, surface.prim));
+            } else {
+                (walk.after_wide, walk.angle) = (true, walk.angle.max(WIDE_ANGLE));
+            }
+        }
+        if next.through {
+            let inwards = next.wi.dot(surface.n) < 0.0;
+            walk.beta *= walk.media.pass(surface.material, inwards, &self.world.materials);
+        }
+
+        // End dim paths early; the survivors carry their weight.
+        let worth = walk.beta.max_component() * walk.eta_scale;
+        let u = || walk.sampler.get_1d(Dim::Roulette(depth));
+        walk.beta /= roulette(worth, depth, next.specular, u)?;
+        walk.depth += 1;
+        Some(())
+    }
+}
+
+impl Walk {
+    /// Goes `t` metres, to the next surface.
+    pub fn pass_through(&mut self, t: f32, world: &World) {
+        self.beta *= self.media.transmittance(t, &world.materials);
+        self.footprint += self.angle * t;
+    }
+
+    /// The vertex that it is at.
+    pub fn vertex<'a>(&self, surface: &'a SurfacePoint, bsdf: &'a Bsdf, wo: Vec3) -> Vertex<'a> {
+        Vertex { surface, bsdf, wo, depth: self.depth, after_wide: self.after_wide }
+    }
+
+    /// Whether it is to be lit where it met a surface that spreads light: a small branch by chance, which it then makes up.
+    fn is_lit(&mut self) -> bool {
+        let chance = fork::lit_chance(self.share);
+        if !self.is_clear || chance == 1.0 {
+            return true;
+        }
+        self.beta /= chance;
+        self.share /= chance;
+        self.sampler.get_1d(Dim::Lit(self.depth)) < chance
     }
 }
 
@@ -192,7 +338,13 @@ impl PathTracer<'_> {
     }
 
     /// What one light sends straight to a vertex and on to the viewer, weighed against finding it by the bsdf.
-    fn direct(&self, vertex: &Vertex, media: &Media, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+    pub(super) fn direct(
+        &self,
+        vertex: &Vertex,
+        media: &Media,
+        sampler: &Sampler,
+        counters: &mut Counters,
+    ) -> Rgb {
         let (world, depth) = (self.world, vertex.depth);
         let (u_choice, u) = (sampler.get_2d(Dim::LightChoice(depth)), sampler.get_2d(Dim::Light(depth)));
         let Some(drawn) = world.lights.sample_li(&world.geometry, &vertex.viewpoint(), u_choice, u) else {
@@ -214,117 +366,5 @@ impl PathTracer<'_> {
             arriving *= media.pass(vertex.surface.material, drawn.wi.dot(n) < 0.0, &world.materials);
         }
         arriving * media.transmittance(drawn.distance(), &world.materials) * (weight / drawn.pdf)
-    }
-}
-
-impl Vertex<'_> {
-    /// From where it looks for light: above its surface, unless light may come through it.
-    fn viewpoint(&self) -> Viewpoint {
-        let ns = self.bsdf.normal();
-        let n = if self.wo.dot(self.surface.n) < 0.0 { -ns } else { ns };
-        Viewpoint { p: self.surface.p, n: (!self.bsdf.transmits()).then_some(n) }
-    }
-
-    /// Draws the direction in which the path goes on.
-    fn sample_bsdf(&self, sampler: &Sampler) -> Option<BsdfSample> {
-        let u = sampler.get_2d(Dim::Bsdf(self.depth));
-        let u_lobe = if self.bsdf.has_choice() { sampler.get_1d(Dim::Lobe(self.depth)) } else { 0.0 };
-        self.bsdf.sample(self.wo, u, u_lobe, Transport::Radiance)
-    }
-
-    /// Whether a drawn direction counts as that of a sharp lobe, and by what to multiply its weight then.
-    ///
-    /// Where lobes of both kinds scatter that way, chance decides, in proportion to what they send.
-    fn split(&self, next: &BsdfSample, sampler: &Sampler) -> (bool, Rgb) {
-        let lobes = self.bsdf.lobes();
-        if next.specular || !lobes.iter().any(gathers) {
-            return (true, Rgb::WHITE);
-        }
-        if lobes.iter().all(|lobe| gathers(lobe) || lobe.is_specular()) {
-            return (false, Rgb::WHITE);
-        }
-        let all = self.bsdf.eval(self.wo, next.wi);
-        let wide = self.bsdf.only(gathers).eval(self.wo, next.wi);
-        let chance = (wide.mean() / all.mean()).clamp(0.0, 1.0); // of being wide
-        let is_wide = sampler.get_1d(Dim::Share(self.depth)) < chance;
-        let (part, chance) = if is_wide { (wide, chance) } else { (all - wide, 1.0 - chance) };
-        let share = |part: f32, all: f32| if all > 0.0 { (part / (all * chance)).max(0.0) } else { 0.0 };
-        (!is_wide, Rgb::new(share(part.r, all.r), share(part.g, all.g), share(part.b, all.b)))
-    }
-}
-
-/// The weight of a strategy of density `a` where another has density `b`: the power heuristic a² / (a² + b²).
-///
-/// The ratio is formed first, so that no square overflows (Veach 1997, eq. 9.20). A density that is infinite belongs to
-/// a direction that only its own strategy can find, and weighs 1; of two such, each counts half.
-pub fn mis_weight(a: f32, b: f32) -> f32 {
-    if a == b {
-        return if a == 0.0 { 0.0 } else { 0.5 };
-    }
-    let ratio = b / a;
-    1.0 / (1.0 + ratio * ratio)
-}
-
-/// Bounces before a path may be ended by chance; specular ones scatter nothing and wait longer.
-const SAFE_BOUNCES: u32 = 3;
-const SAFE_SPECULAR_BOUNCES: u32 = 32;
-/// After so many bounces even paths that lose nothing end sooner or later.
-const ENDLESS_BOUNCES: u32 = 8;
-
-/// The probability with which a path of the given worth (its largest throughput) was allowed to go on; `None` if it ends.
-pub(super) fn roulette(worth: f32, depth: u32, specular: bool, u: impl FnOnce() -> f32) -> Option<f32> {
-    if worth.is_nan() || worth < 1e-30 {
-        return None;
-    }
-    let safe = if specular { SAFE_SPECULAR_BOUNCES } else { SAFE_BOUNCES };
-    if depth < safe {
-        return Some(1.0);
-    }
-    let most = if depth < ENDLESS_BOUNCES { 1.0 } else { 0.95 };
-    let survival = worth.clamp(0.05, most);
-    (u() < survival).then_some(survival)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn weights_of_two_strategies_add_up_to_one_at_the_extremes() {
-        let densities = [0.0, 1e-38, 1.0, 1e38, f32::INFINITY];
-        for a in densities {
-            for b in densities {
-                let (wa, wb) = (mis_weight(a, b), mis_weight(b, a));
-                assert!((0.0..=1.0).contains(&wa), "{a} against {b}: {wa}");
-                assert!(
-                    a == 0.0 && b == 0.0 || (wa + wb - 1.0).abs() <= f32::EPSILON,
-                    "{a} and {b}: {wa} + {wb}"
-                );
-            }
-        }
-        assert_eq!(mis_weight(f32::INFINITY, 1e38), 1.0);
-        assert_eq!(mis_weight(0.0, 1.0), 0.0);
-    }
-
-    #[test]
-    fn roulette_gives_back_what_it_takes() {
-        // A chain of mirrors that reflect 0.9, each bounce adding what it carries: 1 / (1 − 0.9) = 10 on average.
-        for specular in [false, true] {
-            let n = 20_000;
-            let mut total = 0.0;
-            for i in 0..n {
-                let sampler = Sampler::new(7, 0, i, 0);
-                let mut beta = 1.0_f32;
-                for depth in 0..10_000 {
-                    total += f64::from(beta);
-                    beta *= 0.9;
-                    let u = || sampler.get_1d(Dim::Roulette(depth));
-                    let Some(survival) = roulette(beta, depth, specular, u) else { break };
-                    beta /= survival;
-                }
-            }
-            let mean = total / n as f64;
-            assert!((mean - 10.0).abs() < 0.1, "specular {specular}: {mean}");
-        }
     }
 }

@@ -8,11 +8,13 @@
 //! sharp reflections, by sampling. Each way of light is thus counted once: what a vertex emits is always added, for no
 //! photon is ever gathered through the lobe that led there.
 
-use super::path::roulette;
+use super::fork::{self, MOST_WAITING, Way};
+use super::weight::roulette;
 use super::{Counters, Integrator, Pass};
-use crate::math::{Ray, Rgb};
-use crate::render::bsdf::Transport;
+use crate::math::{Ray, Rgb, Vec2};
+use crate::render::bsdf::{Bsdf, Transport};
 use crate::render::driver::PpmSettings;
+use crate::render::geometry::SurfacePoint;
 use crate::render::media::Media;
 use crate::render::photon::{Gather, PhotonMap, Schedule, gathers, trace_photons};
 use crate::render::sampler::{Dim, Sampler};
@@ -48,52 +50,150 @@ impl Integrator for PhotonMapper<'_> {
         self.schedule.shrunk()
     }
 
-    fn radiance(&self, mut ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
-        let mut radiance = Rgb::BLACK;
-        let mut beta = Rgb::WHITE;
-        let mut media = Media::start(&self.world.materials, sampler);
-        let mut eta_scale = 1.0; // the factor η² that refraction has taken from beta, and will give back
+    fn radiance(&self, ray: Ray, sampler: &Sampler, counters: &mut Counters) -> Rgb {
+        let media = Media::start(&self.world.materials, sampler);
+        let (beta, sampler) = (Rgb::WHITE, *sampler);
+        let start = Walk { ray, sampler, depth: 0, beta, eta_scale: 1.0, media, share: 1.0, is_clear: true };
+        let mut waiting = Vec::new();
+        let mut radiance = self.follow(start, &mut waiting, counters);
+        while let Some(walk) = waiting.pop() {
+            radiance += self.follow(walk, &mut waiting, counters);
+        }
+        radiance
+    }
+}
 
-        for depth in 0..self.max_depth {
+/// A camera path under way, as those of a path tracer.
+#[derive(Clone)]
+struct Walk {
+    ray: Ray,
+    sampler: Sampler,
+    depth: u32,
+    beta: Rgb,
+    /// The factor η² that refraction has taken from beta, and will give back.
+    eta_scale: f32,
+    media: Media,
+    share: f32,
+    is_clear: bool,
+}
+
+impl PhotonMapper<'_> {
+    /// Follows a path to its end: the light it finds. Other ways to go are left in `waiting`.
+    fn follow(&self, mut walk: Walk, waiting: &mut Vec<Walk>, counters: &mut Counters) -> Rgb {
+        let mut radiance = Rgb::BLACK;
+        while walk.depth < self.max_depth {
             // Find the next vertex, or take what the sky sends and stop.
             counters.rays += 1;
-            let Some(hit) = self.world.closest_hit(&ray) else {
-                return radiance + beta * self.world.lights.sky(ray.d).0;
+            let Some(hit) = self.world.closest_hit(&walk.ray) else {
+                return radiance + walk.beta * self.world.lights.sky(walk.ray.d).0;
             };
-            let surface = self.world.interaction(&ray, &hit);
-            let wo = -ray.d;
-            beta *= media.transmittance(hit.t, &self.world.materials);
+            let surface = self.world.interaction(&walk.ray, &hit);
+            let wo = -walk.ray.d;
+            walk.beta *= walk.media.transmittance(hit.t, &self.world.materials);
 
             // Add light emitted here, then light that photons brought.
-            radiance += beta * self.world.emitted(&surface, wo);
-            let bsdf = self.world.bsdf_between(&surface, wo, &media);
+            radiance += walk.beta * self.world.emitted(&surface, wo);
+            let bsdf = self.world.bsdf_between(&surface, wo, &walk.media);
             let rough = bsdf.only(gathers);
             if !rough.lobes().is_empty() {
+                if !walk.is_lit() {
+                    break;
+                }
                 let gather = Gather {
                     radius2: self.schedule.current() as f32,
                     k: self.settings.k.max(2) as usize,
-                    max_depth: self.max_depth - depth, // this vertex belongs to both paths
+                    max_depth: self.max_depth - walk.depth, // this vertex belongs to both paths
                 };
-                radiance += beta * gather.radiance(&self.map, &surface, &rough, wo);
+                radiance += walk.beta * gather.radiance(&self.map, &surface, &rough, wo);
             }
 
-            // Follow one sharp reflection onwards.
+            // Follow one sharp reflection onwards, or what is mirrored and what is let through.
             let sharp = bsdf.only(|lobe| !gathers(lobe));
-            let (u, u_lobe) = (sampler.get_2d(Dim::Bsdf(depth)), sampler.get_1d(Dim::Lobe(depth)));
-            let Some(next) = sharp.sample(wo, u, u_lobe, Transport::Radiance) else { break };
-            beta *= next.weight;
-            eta_scale *= next.eta * next.eta;
-            ray = surface.spawn(next.wi);
-            if next.through {
-                beta *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &self.world.materials);
+            let forks = walk.is_clear && waiting.len() < MOST_WAITING;
+            let ended = match sharp.mirrored_share(wo).filter(|_| forks) {
+                Some(mirrored) => self.fork(&mut walk, &surface, &sharp, mirrored, waiting),
+                None => {
+                    let (u, u_lobe) = walk.drawn();
+                    self.step(&mut walk, &surface, &sharp, u, u_lobe)
+                }
+            };
+            if ended.is_none() {
+                break;
             }
-
-            // End dim paths early; the survivors carry their weight.
-            let worth = beta.max_component() * eta_scale;
-            let u = || sampler.get_1d(Dim::Roulette(depth));
-            let Some(survival) = roulette(worth, depth, next.specular, u) else { break };
-            beta /= survival;
         }
         radiance
+    }
+
+    /// Moves a path on both ways from a clear surface that mirrors a part of the light, or on one of them.
+    fn fork(
+        &self,
+        walk: &mut Walk,
+        surface: &SurfacePoint,
+        sharp: &Bsdf,
+        mirrored: f32,
+        waiting: &mut Vec<Walk>,
+    ) -> Option<()> {
+        let (_, u) = walk.drawn();
+        let [mirrored, through] = fork::ways(mirrored, walk.share, u);
+        let take = |Way { u_lobe, factor }: Way, sampler| {
+            let (beta, share) = (walk.beta * factor, walk.share * factor);
+            let mut branch = Walk { sampler, beta, share, ..walk.clone() };
+            self.step(&mut branch, surface, sharp, Vec2::ZERO, u_lobe).map(|()| branch)
+        };
+        let beside = if through.is_some() { walk.sampler.branch(walk.depth) } else { walk.sampler };
+        let mirrored = mirrored.and_then(|way| take(way, beside));
+        match through.and_then(|way| take(way, walk.sampler)) {
+            Some(through) => {
+                waiting.extend(mirrored);
+                *walk = through;
+            }
+            None => *walk = mirrored?,
+        }
+        Some(())
+    }
+
+    /// Moves a path on in the direction that two numbers draw; `None` if it ends.
+    fn step(
+        &self,
+        walk: &mut Walk,
+        surface: &SurfacePoint,
+        sharp: &Bsdf,
+        u: Vec2,
+        u_lobe: f32,
+    ) -> Option<()> {
+        let next = sharp.sample(-walk.ray.d, u, u_lobe, Transport::Radiance)?;
+        walk.beta *= next.weight;
+        walk.eta_scale *= next.eta * next.eta;
+        walk.is_clear &= next.specular;
+        walk.ray = surface.spawn(next.wi);
+        if next.through {
+            let inwards = next.wi.dot(surface.n) < 0.0;
+            walk.beta *= walk.media.pass(surface.material, inwards, &self.world.materials);
+        }
+
+        // End dim paths early; the survivors carry their weight.
+        let worth = walk.beta.max_component() * walk.eta_scale;
+        let u = || walk.sampler.get_1d(Dim::Roulette(walk.depth));
+        walk.beta /= roulette(worth, walk.depth, next.specular, u)?;
+        walk.depth += 1;
+        Some(())
+    }
+}
+
+impl Walk {
+    /// The numbers that draw a direction.
+    fn drawn(&self) -> (Vec2, f32) {
+        (self.sampler.get_2d(Dim::Bsdf(self.depth)), self.sampler.get_1d(Dim::Lobe(self.depth)))
+    }
+
+    /// Whether it is to be lit where photons are gathered: a small branch by chance, which it then makes up.
+    fn is_lit(&mut self) -> bool {
+        let chance = fork::lit_chance(self.share);
+        if !self.is_clear || chance == 1.0 {
+            return true;
+        }
+        self.beta /= chance;
+        self.share /= chance;
+        self.sampler.get_1d(Dim::Lit(self.depth)) < chance
     }
 }

@@ -6,14 +6,14 @@
 //! other lobes. A surface with lobes of both kinds takes part in both roles, each lobe in its own.
 
 use super::aim::{Aim, Source};
+use super::trace::Flight;
 use super::{Gather, Photon, PhotonMap, Schedule, gathers};
 use crate::math::{Rgb, Vec3};
-use crate::render::bsdf::{Bsdf, MaterialId, Transport};
+use crate::render::bsdf::{Bsdf, MaterialId};
 use crate::render::driver::{GatherRadius, HybridSettings};
 use crate::render::geometry::{PrimId, SurfacePoint};
 use crate::render::integrator::{Counters, Pass};
-use crate::render::media::Media;
-use crate::render::sampler::{Dim, Sampler};
+use crate::render::sampler::Sampler;
 use crate::render::world::World;
 use rayon::prelude::*;
 
@@ -117,39 +117,20 @@ impl Tracer<'_> {
     fn emit(&mut self, sampler: &Sampler, share: f32) {
         let Caustics { world, aim, max_depth, .. } = self.caustics;
         let Some(start) = aim.emit(sampler) else { return };
-        let (mut ray, mut power) = (start.ray, start.power * share);
-        let mut media = Media::start(&world.materials, sampler);
-        for bounce in 0..max_depth.saturating_sub(1) {
+        let mut flight = Flight::new(world, start.ray, start.power * share, sampler);
+        while flight.bounce + 1 < *max_depth {
             self.rays += 1;
-            let Some(hit) = world.closest_hit(&ray) else { return };
-            let surface = world.interaction(&ray, &hit);
-            if bounce == 0 && !aim.holds(surface.material, surface.prim, start.from_infinity) {
+            let Some((surface, bsdf)) = flight.arrive() else { return };
+            let is_first = flight.bounce == 0;
+            if is_first && !aim.holds(surface.material, surface.prim, start.from_infinity) {
                 return;
             }
-            let wi = -ray.d;
-            let bsdf = world.bsdf_between(&surface, wi, &media);
-            power *= media.transmittance(hit.t, &world.materials);
-            if power.is_black() || !power.is_valid() {
-                return;
+            if !is_first && bsdf.lobes().iter().any(gathers) {
+                self.photons.push(flight.photon(&surface));
             }
-            if bounce > 0 && bsdf.lobes().iter().any(gathers) {
-                let n = if wi.dot(surface.n) < 0.0 { -surface.n } else { surface.n };
-                self.photons.push(Photon { p: surface.p, wi, n, power, depth: bounce + 2 });
-            }
-
             // Go on through a sharp lobe.
-            let sharp = bsdf.only(|lobe| !gathers(lobe));
-            let (u, u_lobe) = (sampler.get_2d(Dim::Bsdf(bounce)), sampler.get_1d(Dim::Lobe(bounce)));
-            let Some(next) = sharp.sample(wi, u, u_lobe, Transport::Importance) else { return };
-            // What is absorbed ends photons rather than dimming them: those that survive all carry much alike.
-            let survival = next.weight.max_component().min(1.0);
-            if sampler.get_1d(Dim::Roulette(bounce)) >= survival {
+            if flight.go_on(&surface, &bsdf.only(|lobe| !gathers(lobe))).is_none() {
                 return;
-            }
-            power *= next.weight / survival;
-            ray = surface.spawn(next.wi);
-            if next.through {
-                power *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &world.materials);
             }
         }
     }

@@ -2,8 +2,9 @@
 
 use super::Photon;
 use crate::math::{Ray, Rgb};
-use crate::render::bsdf::{Lobe, Transport};
+use crate::render::bsdf::{Bsdf, Lobe, Transport};
 use crate::render::effects::Effects;
+use crate::render::geometry::SurfacePoint;
 use crate::render::integrator::{Counters, Pass};
 use crate::render::media::Media;
 use crate::render::sampler::{Dim, Sampler};
@@ -66,48 +67,81 @@ struct Tracer<'a> {
 }
 
 impl Tracer<'_> {
-    /// One photon, which stands for `share` of all light.
+    /// One photon, which stands for `share` of all light, from surface to surface; left on each that gathers photons.
     fn emit(&mut self, sampler: &Sampler, share: f32) {
         let choice = self.world.lights.choose(sampler.get_1d(Dim::PhotonLight));
         let Some((light, pmf)) = choice else { return };
         let (u_pos, u_dir) = (sampler.get_2d(Dim::PhotonPosition), sampler.get_2d(Dim::PhotonDirection));
         let start = light.sample_emission(&self.world.geometry, u_pos, u_dir);
-        self.follow(start.ray, start.weight * (share / pmf), sampler);
-    }
-
-    /// Along a ray, from surface to surface, leaving a photon on each that gathers them.
-    fn follow(&mut self, mut ray: Ray, mut power: Rgb, sampler: &Sampler) {
-        let mut media = Media::start(&self.world.materials, sampler);
-        for bounce in 0..self.max_depth.saturating_sub(1) {
+        let mut flight = Flight::new(self.world, start.ray, start.weight * (share / pmf), sampler);
+        while flight.bounce + 1 < self.max_depth {
             self.rays += 1;
-            let Some(hit) = self.world.closest_hit(&ray) else { return };
-            let surface = self.world.interaction(&ray, &hit);
-            let wi = -ray.d;
-            let bsdf = self.world.bsdf_between(&surface, wi, &media);
-            power *= media.transmittance(hit.t, &self.world.materials);
-            if power.is_black() || !power.is_valid() {
-                return;
-            }
+            let Some((surface, bsdf)) = flight.arrive() else { return };
             if bsdf.lobes().iter().any(gathers) {
-                let n = if wi.dot(surface.n) < 0.0 { -surface.n } else { surface.n };
-                self.photons.push(Photon { p: surface.p, wi, n, power, depth: bounce + 2 });
+                self.photons.push(flight.photon(&surface));
             }
-
-            let (u, u_lobe) = (sampler.get_2d(Dim::Bsdf(bounce)), sampler.get_1d(Dim::Lobe(bounce)));
-            let Some(next) = bsdf.sample(wi, u, u_lobe, Transport::Importance) else { return };
-            // What is absorbed ends photons rather than dimming them: those that survive all carry much alike.
-            let survival = next.weight.max_component().min(1.0);
-            if sampler.get_1d(Dim::Roulette(bounce)) >= survival {
+            let Some(specular) = flight.go_on(&surface, &bsdf) else { return };
+            if !specular && !self.world.effects.has(Effects::INDIRECT) {
                 return;
-            }
-            if !next.specular && !self.world.effects.has(Effects::INDIRECT) {
-                return;
-            }
-            power *= next.weight / survival;
-            ray = surface.spawn(next.wi);
-            if next.through {
-                power *= media.pass(surface.material, next.wi.dot(surface.n) < 0.0, &self.world.materials);
             }
         }
+    }
+}
+
+/// A photon under way.
+pub(super) struct Flight<'a> {
+    world: &'a World,
+    sampler: &'a Sampler,
+    ray: Ray,
+    power: Rgb,
+    media: Media,
+    /// Surfaces left so far.
+    pub bounce: u32,
+}
+
+impl<'a> Flight<'a> {
+    /// A photon that leaves its light.
+    pub fn new(world: &'a World, ray: Ray, power: Rgb, sampler: &'a Sampler) -> Self {
+        Self { world, sampler, ray, power, media: Media::start(&world.materials, sampler), bounce: 0 }
+    }
+
+    /// Goes to the next surface; `None` if there is none, or if nothing arrives.
+    #[inline]
+    pub fn arrive(&mut self) -> Option<(SurfacePoint, Bsdf)> {
+        let hit = self.world.closest_hit(&self.ray)?;
+        let surface = self.world.interaction(&self.ray, &hit);
+        let bsdf = self.world.bsdf_between(&surface, -self.ray.d, &self.media);
+        self.power *= self.media.transmittance(hit.t, &self.world.materials);
+        (!self.power.is_black() && self.power.is_valid()).then_some((surface, bsdf))
+    }
+
+    /// What it leaves on the surface it is at.
+    pub fn photon(&self, surface: &SurfacePoint) -> Photon {
+        let wi = -self.ray.d;
+        let n = if wi.dot(surface.n) < 0.0 { -surface.n } else { surface.n };
+        Photon { p: surface.p, wi, n, power: self.power, depth: self.bounce + 2 }
+    }
+
+    /// Leaves the surface it is at in a direction that `bsdf` draws, and says whether that was the only one possible;
+    /// `None` if it ends there.
+    ///
+    /// What is absorbed ends photons rather than dimming them: those that survive all carry much alike.
+    #[inline]
+    pub fn go_on(&mut self, surface: &SurfacePoint, bsdf: &Bsdf) -> Option<bool> {
+        let bounce = self.bounce;
+        let (u, u_lobe) = (self.sampler.get_2d(Dim::Bsdf(bounce)), self.sampler.get_1d(Dim::Lobe(bounce)));
+        let next = bsdf.sample(-self.ray.d, u, u_lobe, Transport::Importance)?;
+        let survival = next.weight.max_component().min(1.0);
+        if self.sampler.get_1d(Dim::Roulette(bounce)) >= survival {
+            return None;
+        }
+        self.power *= next.weight / survival;
+        self.ray = surface.spawn(next.wi);
+        if next.through {
+            let inwards = next.wi.dot(surface.n) < 0.0;
+            self.power *= self.media.pass(surface.material, inwards, &self.world.materials);
+        }
+        self.bounce += 1;
+        Some(next.specular)
     }
 }

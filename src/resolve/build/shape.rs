@@ -88,6 +88,7 @@ impl<'a> Resolver<'a> {
             },
             "mesh" => ShapeKind::Mesh {
                 file: fields.text("file")?,
+                part: fields.text("part"),
                 scale: fields.number("scale")?,
                 smooth: fields.flag("smooth"),
                 skip_missing: fields.word("missing")?.value == "skip",
