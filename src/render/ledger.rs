@@ -60,7 +60,7 @@ enum Whose {
 
 /// A path that ended.
 struct Sample {
-    pixel: [u32; 2],
+    pixel: u64,
     first: Option<SourceId>,
     luminance: f32,
 }
@@ -118,7 +118,7 @@ pub fn look() {
 }
 
 /// A path has ended, for this pixel, with this radiance.
-pub fn end_path(pixel: [u32; 2], radiance: Rgb) {
+pub fn end_path(pixel: u64, radiance: Rgb) {
     write(|ledger| {
         ledger.switch(None);
         let (first, luminance) = (ledger.first, radiance.luminance());
@@ -168,7 +168,7 @@ impl Ledger {
     }
 
     fn share_noise(&mut self) {
-        let mut sums: FxHashMap<[u32; 2], (f64, f64)> = FxHashMap::default();
+        let mut sums: FxHashMap<u64, (f64, f64)> = FxHashMap::default();
         for sample in &self.samples {
             let (sum, count) = sums.entry(sample.pixel).or_default();
             (*sum, *count) = (*sum + f64::from(sample.luminance), *count + 1.0);
@@ -193,7 +193,7 @@ mod tests {
             arrive(SourceId(1));
             look();
             arrive(SourceId(0));
-            end_path([path as u32 % 2, 0], Rgb::gray(path as f32));
+            end_path(path % 2, Rgb::gray(path as f32));
         }
         let ledger = close().expect("it was opened here");
         assert_eq!((ledger.objects[1].rays, ledger.objects[0].rays), (4 * TIMED, 2 * TIMED));

@@ -326,6 +326,12 @@ impl Materials {
         self.effects
     }
 
+    /// Whether paths of different wavelengths go different ways: some glass disperses, and that is simulated.
+    pub fn disperses(&self) -> bool {
+        let mut interiors = self.interiors.iter().flatten();
+        self.effects.has(Effects::DISPERSION) && interiors.any(|interior| interior.spread > 0.0)
+    }
+
     /// The same materials, of which only so much is simulated.
     #[must_use]
     pub fn with_effects(self, effects: Effects) -> Self {
