@@ -131,9 +131,8 @@ fn mesh_files_become_scenes() {
         let folder = tempfile::tempdir().expect("a folder");
         let name = Path::new(file).file_name().unwrap().to_str().unwrap();
         std::fs::copy(assets.join(file), folder.path().join(name)).expect("a copy");
-        for library in ["texture.mtl"] {
-            std::fs::copy(assets.join("obj").join(library), folder.path().join(library)).expect("a copy");
-        }
+        let library = "texture.mtl";
+        std::fs::copy(assets.join("obj").join(library), folder.path().join(library)).expect("a copy");
         let converted = snell(&["convert", name, "-o", "x.snell", "--report", "x.json"], folder.path());
         let said = String::from_utf8_lossy(&converted.stderr).into_owned();
         assert_eq!(converted.status.code(), Some(0), "{file}: {said}");

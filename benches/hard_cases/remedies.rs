@@ -274,7 +274,7 @@ fn microfacets() -> Remedy {
             let (a, h) = (f64::from(*alpha), h.as_dvec3());
             let s = (h.x * h.x + h.y * h.y) / (a * a) + h.z * h.z;
             let exact = 1.0 / (PI * a * a * s * s);
-            !((f64::from(d(*alpha, h.as_vec3())) / exact - 1.0).abs() < 0.01)
+            !is_within(f64::from(d(*alpha, h.as_vec3())) / exact - 1.0, 0.01)
         });
         format!("{} of {} off by more than 1 %", wrong.count(), inputs.len())
     };
@@ -294,6 +294,11 @@ fn microfacets() -> Remedy {
     }
 }
 
+/// Whether an error is below a bound; what is no number is not.
+fn is_within(error: f64, bound: f64) -> bool {
+    error.abs() < bound
+}
+
 fn weights() -> Remedy {
     let densities = [0.0, 1e-38, 1e-20, 1.0, 1e20, 1e38, f32::INFINITY];
     let inputs: Vec<(f32, f32)> = densities
@@ -303,7 +308,7 @@ fn weights() -> Remedy {
         .collect();
     let squares = |a: f32, b: f32| a * a / (a * a + b * b);
     let wrong = |w: &dyn Fn(f32, f32) -> f32| {
-        let wrong = inputs.iter().filter(|&&(a, b)| !((w(a, b) + w(b, a) - 1.0).abs() < 1e-6));
+        let wrong = inputs.iter().filter(|&&(a, b)| !is_within(f64::from(w(a, b) + w(b, a)) - 1.0, 1e-6));
         format!("{} of {} pairs do not add up to 1", wrong.count(), inputs.len())
     };
     let failures = [wrong(&squares), wrong(&mis_weight)];

@@ -97,7 +97,7 @@ pub enum MeshError {
     #[error("it has no faces")]
     Empty,
     /// Faces, but none that could be seen.
-    #[error("nothing of it can be rendered: {0}")]
+    #[error("nothing is left of it: {0}")]
     NothingLeft(String),
     /// No part has the name that the scene asks for.
     #[error("no part of it is named `{wanted}`")]

@@ -301,7 +301,7 @@ fn sample<I: Integrator>(
     let Some(CameraRay { ray, weight }) = ray else { return Rgb::BLACK };
     let radiance = integrator.radiance(ray, &sampler, counters, witness);
     if world.is_watched {
-        ledger::end_path(pixel, radiance);
+        ledger::end_path(number(pixel), radiance);
     }
     // What is no radiance stays none, whatever it weighs: the film counts it.
     if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
@@ -309,9 +309,13 @@ fn sample<I: Integrator>(
 
 /// The ray of a pixel in a pass, if its lens lets one through, and the numbers of its path.
 fn camera_ray(world: &World, pass: Pass, pixel: [u32; 2]) -> (Sampler, Option<CameraRay>) {
-    let [x, y] = pixel;
-    let sampler = pass.camera_sampler(u64::from(y) << 32 | u64::from(x));
+    let sampler = pass.camera_sampler(number(pixel));
     let blurs = world.effects.has(Effects::LENS_BLUR);
     let u_lens = if blurs { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
     (sampler, world.camera.ray(pixel, sampler.get_2d(Dim::Filter), u_lens))
+}
+
+/// Another number for each pixel.
+fn number([x, y]: [u32; 2]) -> u64 {
+    u64::from(y) << 32 | u64::from(x)
 }

@@ -230,7 +230,7 @@ fn hard_case_07_degenerate_triangles_change_nothing() {
     let ((clean, quiet), (dirty, report)) = (render(&triangles), render(&faces));
     assert!(clean == dirty, "the degenerate faces changed the picture");
     let dropped = faces.len() - triangles.len();
-    assert!(report.contains(&format!("{dropped} of its triangles have no area")), "{report}");
+    assert!(report.contains(&format!("without {dropped} triangles that have no area")), "{report}");
     assert_eq!(quiet, "");
 }
 

@@ -128,14 +128,15 @@ fn hard_case_33_camera_corners() {
 }
 
 /// What an instance under a transform and a copy of its mesh say of the same rays: how many differ in whether they hit,
-/// the largest relative difference of `t`, self-hits, and that difference for who normalises the direction in the frame of
-/// the mesh.
+/// the largest relative error of `t` times the cosine of the angle of incidence, self-hits, and the difference for who
+/// normalises the direction in the frame of the mesh.
 fn instance_against_copy(count: usize) -> (usize, f64, usize, f64) {
     let (positions, triangles) = sphere(24, 24, |_, _| 1.0);
     let shape = mesh(positions, triangles);
     let (mut mismatches, mut worst, mut self_hits, mut naive) = (0, 0.0_f64, 0, 0.0_f64);
     let mut random = Random(132);
-    let scales = [[1e-4, 1.0, 1.0], [1e4, 1.0, 3.0], [1e4, 1e-4, 1.0], [1e-4; 3], [1e4; 3]];
+    // Not by 10⁴ and 10⁻⁴ at once: the vertices of the copy, rounded, are then further off than it is thick.
+    let scales = [[1e-4, 1.0, 1.0], [1e4, 1.0, 3.0], [1e-4; 3], [1e4; 3]];
     for scale in scales {
         let turn = DAffine3::from_axis_angle(DVec3::new(1.0, 2.0, 3.0).normalize(), 1.0);
         let world_from_mesh = turn * DAffine3::from_scale(DVec3::from(scale)) * turn;
@@ -154,7 +155,17 @@ fn instance_against_copy(count: usize) -> (usize, f64, usize, f64) {
             let (hit, other) = (instance.closest_hit(&ray), copy.closest_hit(&ray));
             mismatches += usize::from(hit.is_some() != other.is_some());
             let (Some(hit), Some(other)) = (hit, other) else { continue };
-            worst = worst.max((f64::from(hit.t) / f64::from(other.t) - 1.0).abs());
+            // Against the plane of the triangle in double precision: the copy's own vertices are rounded. At a grazing angle
+            // a rounding moves the hit along the ray by that much more.
+            let from_world = world_from_mesh.inverse();
+            let (o, d) = (
+                from_world.transform_point3(ray.o.as_dvec3()),
+                from_world.transform_vector3(ray.d.as_dvec3()),
+            );
+            let [a, b, c] = shape.corners(shape.triangles[hit.prim.0 as usize]).map(|p| p.as_dvec3());
+            let n = (b - a).cross(c - a).normalize();
+            let t = n.dot(a - o) / n.dot(d);
+            worst = worst.max((f64::from(hit.t) / t - 1.0).abs() * n.dot(d.normalize()).abs());
             let stretch = world_from_mesh.inverse().transform_vector3(ray.d.as_dvec3()).length();
             naive = naive.max((f64::from(hit.t) * stretch / f64::from(other.t) - 1.0).abs());
             let point = instance.surface_point(&ray, &hit);
@@ -167,7 +178,7 @@ fn instance_against_copy(count: usize) -> (usize, f64, usize, f64) {
 }
 
 /// Case 32: an instance against a copy of its mesh, under scales of 10^±4 along some axes: `t` means the same in both, within
-/// 10⁻⁵ relative; as many rays hit, but for 1 in 10⁶ at the rim, and none hits what it leaves. A direction normalised in the
+/// 10⁻⁵ of it by the cosine of incidence; as many rays hit, but for 1 in 10⁶ at the rim, and none hits what it leaves. A direction normalised in the
 /// frame of the mesh makes `t` a length there: off by as much as the scale.
 #[test]
 fn hard_case_32_instances_and_copies() {

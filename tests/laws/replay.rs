@@ -26,6 +26,7 @@ fn added(event: &Event) -> Rgb {
         Event::Emitted { added }
         | Event::Lit { added }
         | Event::Photons { added }
+        | Event::Gathered { added }
         | Event::Sky { added, .. } => *added,
         _ => Rgb::BLACK,
     }
@@ -54,7 +55,10 @@ fn what_events_add_is_the_sample() {
         for pixel in [[1, 6], [2, 5], [5, 5], [6, 6], [4, 1]] {
             for replay in replay(&world, &settings, pixel, 0..4) {
                 let sum = replay.events.iter().map(added).fold(Rgb::BLACK, |sum, added| sum + added);
-                assert_eq!(sum, replay.sample, "{method:?} {pixel:?}: {:#?}", replay.events);
+                // Up to the order in which a path adds them up.
+                let apart = (sum - replay.sample).map(f32::abs).max_component();
+                let most = 1e-5 * replay.sample.max_component();
+                assert!(apart <= most, "{method:?} {pixel:?}: {sum:?} for {:#?}", replay);
                 vertices += replay.events.iter().filter(|e| matches!(e, Event::Vertex { .. })).count();
             }
         }

@@ -20,6 +20,7 @@ const LAST_RATIO: f32 = 0.6;
 type Row = [f32; COSINES];
 
 /// E at the nodes, seen from the thinner side and from the denser one.
+#[allow(clippy::approx_constant, reason = "numbers of a table, whatever they are near")]
 static TABLE: [[[Row; ALPHAS]; ETAS]; 2] = include!("ground_table.in");
 
 /// The mean over the hemisphere of each row, weighted by the cosine.

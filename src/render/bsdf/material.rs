@@ -315,12 +315,6 @@ impl Materials {
         self.interiors[id.0 as usize].as_ref()
     }
 
-    /// Whether any bends each wavelength in its own way, and is simulated so. Looks at all of them.
-    pub fn disperses(&self) -> bool {
-        self.effects.has(Effects::DISPERSION)
-            && self.interiors.iter().flatten().any(|interior| interior.spread > 0.0)
-    }
-
     /// What is simulated of them.
     pub fn effects(&self) -> Effects {
         self.effects

@@ -5,7 +5,6 @@
 
 use super::{Geometry, Prim, SurfacePoint};
 use crate::math::{DVec3, Vec3};
-use crate::render::shape::Mesh;
 
 impl Geometry {
     /// The point of the round surface above a facet, seen along `wo`, its shading normal for a normal; `None` where there are
@@ -14,33 +13,36 @@ impl Geometry {
     /// Each corner's tangent plane is asked how far it lies above the point, and their answers are interpolated (Hanika
     /// 2021, section 2).
     pub fn rounded(&self, surface: &SurfacePoint, wo: Vec3) -> Option<SurfacePoint> {
-        let (mesh, triangle, to_world, normal_to_world): (
-            &Mesh,
-            _,
-            &dyn Fn(DVec3) -> DVec3,
-            &dyn Fn(DVec3) -> DVec3,
-        ) = match self.prim(surface.prim) {
-            Prim::Triangle(mesh, triangle) => (mesh, triangle, &|p| p, &|n| n),
-            Prim::Placed(placed, mesh, triangle) => {
-                (mesh, triangle, &|p| placed.instance.world_from_mesh.transform_point3(p), &|n| {
-                    placed.normal(n)
-                })
-            }
-            Prim::Solid(_) => return None,
-        };
-        let normals = mesh.normals.as_ref()?;
+        let (corners, normals) = self.corners_and_normals(surface)?;
         let (p, n) = (surface.p.as_dvec3(), surface.n.as_dvec3());
         let n = if wo.dot(surface.n) < 0.0 { -n } else { n };
-        let corners = mesh.corners(triangle).map(|corner| to_world(corner.as_dvec3()));
         let weights = barycentrics(corners, p)?;
         let mut lift = DVec3::ZERO;
-        for ((vertex, corner), weight) in triangle.into_iter().zip(corners).zip(weights) {
-            let normal = normal_to_world(normals[vertex as usize].as_dvec3()).normalize_or_zero();
+        for ((corner, normal), weight) in corners.into_iter().zip(normals).zip(weights) {
             let normal = if normal.dot(n) < 0.0 { -normal } else { normal };
             lift += normal * ((corner - p).dot(normal).max(0.0) * weight);
         }
         let ns = if wo.dot(surface.n) < 0.0 { -surface.ns } else { surface.ns };
         (lift != DVec3::ZERO).then(|| SurfacePoint { p: (p + lift).as_vec3(), n: ns, ns, ..*surface })
+    }
+
+    /// The corners of the triangle at a point and their unit normals, in the world; `None` without interpolated normals.
+    fn corners_and_normals(&self, surface: &SurfacePoint) -> Option<([DVec3; 3], [DVec3; 3])> {
+        let (mesh, triangle, placed) = match self.prim(surface.prim) {
+            Prim::Triangle(mesh, triangle) => (mesh, triangle, None),
+            Prim::Placed(placed, mesh, triangle) => (mesh, triangle, Some(placed)),
+            Prim::Solid(_) => return None,
+        };
+        let normals = mesh.normals.as_ref()?;
+        let corners = mesh.corners(triangle).map(Vec3::as_dvec3);
+        let normals = triangle.map(|vertex| normals[vertex as usize].as_dvec3());
+        Some(match placed {
+            None => (corners, normals.map(DVec3::normalize_or_zero)),
+            Some(placed) => (
+                corners.map(|corner| placed.instance.world_from_mesh.transform_point3(corner)),
+                normals.map(|normal| placed.normal(normal)),
+            ),
+        })
     }
 }
 
