@@ -23,8 +23,9 @@ fn scenes_convert_to_what_is_expected() {
         assert_accounted(&text, &conversion, name);
         for (index, scene) in conversion.scenes.iter().enumerate() {
             let doubts = assert_compiles(&scene.snell, name);
+            // The last has a quad of glass, as files of that family do.
             assert!(
-                doubts.is_empty() || ["doubts.txt", "mistakes.txt"].contains(&name),
+                doubts.is_empty() || ["doubts.txt", "mistakes.txt", "kinds.txt"].contains(&name),
                 "{name}: {doubts:?}"
             );
             let ending = if index == 0 { "snell".into() } else { format!("{}.snell", index + 1) };
