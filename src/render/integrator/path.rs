@@ -270,11 +270,11 @@ impl PathTracer<'_> {
     /// Moves a path on in a direction that its bsdf draws; `None` if it ends.
     #[inline]
     pub(super) fn scatter(&self, walk: &mut Walk, vertex: &Vertex, witness: &mut impl Witness) -> Option<()> {
-        let Some(next) = vertex.sample_bsdf(&walk.sampler) else {
+        let u_lobe = vertex.u_lobe(&walk.sampler);
+        let Some(next) = vertex.sample_bsdf(&walk.sampler, u_lobe) else {
             witness.note(|| Event::Ended(End::Absorbed));
             return None;
         };
-        let u_lobe = vertex.u_lobe(&walk.sampler);
         self.step(walk, vertex, &next, u_lobe, witness)
     }
 

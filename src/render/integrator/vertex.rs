@@ -35,10 +35,10 @@ impl Vertex<'_> {
         Viewpoint { p: self.surface.p, n: (!self.bsdf.transmits()).then_some(n) }
     }
 
-    /// Draws the direction in which the path goes on.
-    pub fn sample_bsdf(&self, sampler: &Sampler) -> Option<BsdfSample> {
+    /// Draws the direction in which the path goes on, from the lobe that `u_lobe` chooses.
+    pub fn sample_bsdf(&self, sampler: &Sampler, u_lobe: f32) -> Option<BsdfSample> {
         let u = sampler.get_2d(Dim::Bsdf(self.depth));
-        self.bsdf.sample(self.wo, u, self.u_lobe(sampler), Transport::Radiance)
+        self.bsdf.sample(self.wo, u, u_lobe, Transport::Radiance)
     }
 
     /// The number that chooses a lobe.
