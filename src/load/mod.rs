@@ -153,6 +153,7 @@ pub fn load<'a>(
         seen_materials: FxHashSet::default(),
         seen_textures: FxHashSet::default(),
         seen_models: FxHashSet::default(),
+        missing: FxHashSet::default(),
         failed: false,
     };
     for object in &scene.objects {
@@ -189,6 +190,8 @@ struct Loader<'a, 'b> {
     seen_materials: FxHashSet<usize>,
     seen_textures: FxHashSet<usize>,
     seen_models: FxHashSet<usize>,
+    /// Files that were told to be missing, by the place that names them: what a loop places is told once.
+    missing: FxHashSet<(Span, String)>,
     failed: bool,
 }
 
@@ -311,6 +314,9 @@ impl Loader<'_, '_> {
             Ok(path) => return Some(path),
             Err(missing) => LoadError::not_found(what.name, what.span, missing),
         };
+        if !self.missing.insert((what.span, what.name.to_owned())) {
+            return None;
+        }
         match error {
             LoadError::MissingFile { name, used, help } if what.skip => {
                 self.problems.push(LoadError::SkippedFile { name, left_out: what.left_out, used, help });
