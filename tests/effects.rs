@@ -1,6 +1,6 @@
 //! Only the effects that a scene calls for are simulated, and nothing is lost by it.
 
-mod command;
+pub mod command;
 mod wild;
 
 use crate::support::film_bits;
@@ -54,7 +54,7 @@ fn with_plan<T>(
 const METHODS: [Method; 3] = [Method::Pt, Method::Ppm, Method::Hybrid];
 
 /// Whether forcing any effect on, or all of them, changes a bit; what did, if so.
-fn changes(path: &Path, text: &str, files: &dyn Files) -> Result<String, String> {
+pub fn changes(path: &Path, text: &str, files: &dyn Files) -> Result<String, String> {
     let mut said = String::new();
     for method in METHODS {
         let differing = with_plan(path, text, files, Some(method), |plan, render| {

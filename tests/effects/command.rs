@@ -30,7 +30,7 @@ fn said(args: &[&str]) -> (Option<i32>, String) {
 }
 
 #[test]
-fn an_effect_that_is_called_for_is_not_left_out() {
+pub fn an_effect_that_is_called_for_is_not_left_out() {
     let (code, said) = said(&["render", "s.snell", "--effects", "-lens_blur"]);
     assert_eq!(code, Some(2));
     assert!(said.contains("calls for `lens_blur` at s.snell:4:") && said.contains("--lossy"), "{said}");
