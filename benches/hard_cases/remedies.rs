@@ -1,8 +1,9 @@
 //! The remedies, each with its input and what counts as a failure.
 
 use crate::support::{
-    BruteForce, Random, Walk, aimed_ray, closed_meshes, conservative_slab, fused_slab, hasty_slab, mesh,
-    naive_intersect, scene, sphere,
+    BruteForce, Random, Walk, aimed_ray, closed_meshes, conservative_slab, fresnel_by_angles, fused_slab,
+    hasty_slab, mesh, naive_intersect, scene, sphere, textbook_distribution, textbook_fresnel,
+    textbook_sphere,
 };
 use crate::{Form, Remedy, time_both};
 use snell::math::{DAffine3, Ray, Vec3};
@@ -113,12 +114,6 @@ fn boxes(
     }
 }
 
-fn textbook_sphere(o: Vec3, d: Vec3) -> Option<f32> {
-    let (a, b, c) = (d.dot(d), 2.0 * o.dot(d), o.dot(o) - 1.0);
-    let discriminant = b * b - 4.0 * a * c;
-    (discriminant >= 0.0).then(|| (-b - discriminant.sqrt()) / (2.0 * a))
-}
-
 fn spheres() -> Remedy {
     let mut random = Random(18);
     let rays: Vec<Ray> = (0..20_000)
@@ -144,10 +139,10 @@ fn spheres() -> Remedy {
         format!("{wrong} of {} hits or misses wrong at 10⁴ radii", rays.len())
     };
     let failures =
-        [wrong(&|ray| textbook_sphere(ray.o, ray.d).is_some()), wrong(&|ray| geometry.any_hit(ray))];
+        [wrong(&|ray| textbook_sphere(ray.o, ray.d, 1.0).is_some()), wrong(&|ray| geometry.any_hit(ray))];
     let [naive, robust] = time_both(
         200_000,
-        |i| f64::from(textbook_sphere(rays[i % rays.len()].o, rays[i % rays.len()].d).unwrap_or(0.0)),
+        |i| f64::from(textbook_sphere(rays[i % rays.len()].o, rays[i % rays.len()].d, 1.0).unwrap_or(0.0)),
         |i| geometry.closest_hit(&rays[i % rays.len()]).map_or(0.0, |hit| f64::from(hit.t)),
     );
     let [naive_failures, failures] = failures;
@@ -205,29 +200,6 @@ fn origins() -> Remedy {
     }
 }
 
-fn textbook_fresnel(cos: f32, eta: f32) -> f32 {
-    let cos2_t = 1.0 - (1.0 - cos * cos) / (eta * eta);
-    if cos2_t <= 0.0 {
-        return 1.0;
-    }
-    let cos_t = cos2_t.sqrt();
-    let parallel = (eta * cos - cos_t) / (eta * cos + cos_t);
-    let perpendicular = (cos - eta * cos_t) / (cos + eta * cos_t);
-    0.5 * (parallel * parallel + perpendicular * perpendicular)
-}
-
-/// The reflectance by the laws of sines and tangents.
-fn fresnel_by_angles(cos: f64, eta: f64) -> f64 {
-    let i = cos.acos();
-    let sin_t = i.sin() / eta;
-    if sin_t >= 1.0 {
-        return 1.0;
-    }
-    let t = sin_t.asin();
-    let (s, p) = ((i - t).sin() / (i + t).sin(), (i - t).tan() / (i + t).tan());
-    if i < 1e-4 { ((eta - 1.0) / (eta + 1.0)).powi(2) } else { 0.5 * (s * s + p * p) }
-}
-
 fn fresnel() -> Remedy {
     let inputs: Vec<(f64, f64)> = [1.0 + 1e-6, 1.0001, 1.5, 1.0 / 1.5, 2.42]
         .into_iter()
@@ -252,11 +224,7 @@ fn fresnel() -> Remedy {
 }
 
 fn microfacets() -> Remedy {
-    let textbook = |alpha: f32, h: Vec3| {
-        let (a2, cos2) = (alpha * alpha, h.z * h.z);
-        let s = cos2 * (a2 - 1.0) + 1.0;
-        a2 / (std::f32::consts::PI * s * s)
-    };
+    let textbook = |alpha: f32, h: Vec3| textbook_distribution(alpha, h.z);
     let by_slopes = |alpha: f32, h: Vec3| {
         let a2 = alpha * alpha;
         let s = (h.x * h.x + h.y * h.y) / a2 + h.z * h.z;

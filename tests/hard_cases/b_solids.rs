@@ -14,13 +14,6 @@ fn ball(center: DVec3, radius: f64) -> DAffine3 {
     DAffine3::from_translation(center) * DAffine3::from_scale(DVec3::splat(radius))
 }
 
-/// The textbook's quadratic in single precision: a, b and c of |o + t d|² = r², then (−b − √(b² − 4ac)) / 2a.
-fn textbook_sphere(o: Vec3, d: Vec3, radius: f32) -> Option<f32> {
-    let (a, b, c) = (d.dot(d), 2.0 * o.dot(d), o.dot(o) - radius * radius);
-    let discriminant = b * b - 4.0 * a * c;
-    (discriminant >= 0.0).then(|| (-b - discriminant.sqrt()) / (2.0 * a))
-}
-
 /// Case 18: small or distant spheres (Haines, Günther, Akenine-Möller 2019). Against double precision from the distance of
 /// the line, hits and misses are right wherever that distance is certain, and t within 4 units in the last place.
 #[test]

@@ -11,35 +11,6 @@ use std::f64::consts::PI;
 
 const ETAS: [f64; 8] = [1.0, 1.0 + 1e-6, 1.0 - 1e-6, 1.0001, 1.5, 1.0 / 1.5, 2.42, 1.0 / 2.42];
 
-/// Fresnel's reflectance with cos² θt = 1 − (1 − c²) / η² in single precision, as textbooks write it.
-fn textbook_fresnel(cos: f32, eta: f32) -> f32 {
-    let cos2_t = 1.0 - (1.0 - cos * cos) / (eta * eta);
-    if cos2_t <= 0.0 {
-        return 1.0;
-    }
-    let cos_t = cos2_t.sqrt();
-    let parallel = (eta * cos - cos_t) / (eta * cos + cos_t);
-    let perpendicular = (cos - eta * cos_t) / (cos + eta * cos_t);
-    0.5 * (parallel * parallel + perpendicular * perpendicular)
-}
-
-/// The reflectance by the laws of sines and tangents, an independent way to the same number.
-fn fresnel_by_angles(cos: f64, eta: f64) -> f64 {
-    if eta == 1.0 {
-        return 0.0;
-    }
-    let (i, sin_t) = (cos.acos(), cos.acos().sin() / eta);
-    if sin_t >= 1.0 {
-        return 1.0;
-    }
-    if i < 1e-4 {
-        return ((eta - 1.0) / (eta + 1.0)).powi(2);
-    }
-    let t = sin_t.asin();
-    let (s, p) = ((i - t).sin() / (i + t).sin(), (i - t).tan() / (i + t).tan());
-    0.5 * (s * s + p * p)
-}
-
 /// Case 34: Fresnel near total reflection and near η = 1: within 10⁻⁶ of the sine and tangent laws, within [0, 1]. The
 /// textbook's form is off by 1 at grazing angles near η = 1.
 #[test]
@@ -93,13 +64,6 @@ fn hard_case_36_directions_keep_their_length() {
     }
     assert!(worst <= 1e-6, "{worst}");
     assert!((naive.length() - 1.0).abs() > 1e-6, "without normalising it is {}", naive.length());
-}
-
-/// D(h) of GGX as textbooks write it, in single precision.
-fn textbook_distribution(alpha: f32, cos: f32) -> f32 {
-    let a2 = alpha * alpha;
-    let s = cos * cos * (a2 - 1.0) + 1.0;
-    a2 / (std::f32::consts::PI * s * s)
 }
 
 /// D(h) by slopes in double precision.
