@@ -75,6 +75,13 @@ impl Summary<'_> {
                 places.join("\n          ")
             );
         }
+        if stats.counters.bad_light > 0 {
+            let _ = writeln!(
+                out,
+                "  trouble {} photons and paths that look for light for many pixels brought no number; they count as 0",
+                count(stats.counters.bad_light)
+            );
+        }
         out
     }
 
@@ -130,6 +137,7 @@ impl Summary<'_> {
             "photons": stats.counters.photons,
             "stored_photons": stats.counters.stored_photons,
             "bad_samples": stats.bad_samples,
+            "bad_light": stats.counters.bad_light,
             "bad_places": self.outcome.film.bad_samples().iter().map(|bad| json!({
                 "pixel": bad.pixel, "pass": bad.pass, "replay": self.replay(bad),
             })).collect::<Vec<_>>(),

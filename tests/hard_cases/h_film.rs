@@ -52,6 +52,24 @@ fn hard_case_67_samples_that_are_not_numbers() {
     assert!(samples().sum::<f32>().is_nan());
 }
 
+/// Case 67 for what many pixels share: photons whose light overflows, here on a surface that sends on 10³⁰ times what it
+/// gets. They count as none, are counted, and no pixel is lost to them.
+#[test]
+fn hard_case_67_photons_that_are_not_numbers() {
+    let mut parts = empty(camera(Vec3::new(0.0, 1.0, 3.0), Vec3::NEG_Z, 0.6, 8));
+    parts.materials = vec![diffuse(1e30), emissive(1e12), diffuse(0.5)];
+    parts.meshes = vec![
+        quad(Vec3::new(-3.0, 0.0, -3.0), Vec3::Z * 6.0, Vec3::X * 6.0, 0),
+        quad(Vec3::new(-1.0, 3.0, -1.0), Vec3::X * 2.0, Vec3::Z * 2.0, 1),
+        quad(Vec3::new(-3.0, 4.0, -3.0), Vec3::X * 6.0, Vec3::Z * 6.0, 2),
+    ];
+    let world = World::new(parts);
+    let method = Method::Ppm(PpmSettings { photon_count: 1_000, k: 20, radius: 0.5, shrink: 2.0 / 3.0 });
+    let outcome = render(&world, &Settings { method, ..path_tracing(2, 8) }, &());
+    assert!(outcome.stats.counters.bad_light > 100, "{:?}", outcome.stats);
+    assert!(outcome.film.mean().iter().all(|pixel| pixel.is_finite()));
+}
+
 /// A closed ball that emits and reflects a half: radiance is 1 everywhere inside, and every pixel is noisy.
 fn glowing_ball(side: u32) -> World {
     let mut parts = empty(camera(Vec3::new(0.2, 0.1, 0.3), Vec3::NEG_Z, 1.0, side));

@@ -178,6 +178,10 @@ impl PathTracer<'_> {
         if self.scatter(&mut walk, vertex, &mut ()).is_some() {
             radiance += self.follow(walk, &mut Vec::new(), counters, &mut ());
         }
-        if radiance.is_valid() { radiance } else { Rgb::BLACK }
+        if !radiance.is_valid() {
+            counters.bad_light += 1;
+            return Rgb::BLACK;
+        }
+        radiance
     }
 }

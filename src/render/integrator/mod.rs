@@ -78,6 +78,9 @@ pub struct Counters {
     pub photons: u64,
     /// Photons left on surfaces.
     pub stored_photons: u64,
+    /// Photons, and paths that tell about light for all of a pass, whose light was infinite, negative, or not a number; it
+    /// counts as none.
+    pub bad_light: u64,
 }
 
 impl AddAssign for Counters {
@@ -85,5 +88,6 @@ impl AddAssign for Counters {
         self.rays += other.rays;
         self.photons += other.photons;
         self.stored_photons += other.stored_photons;
+        self.bad_light += other.bad_light;
     }
 }

@@ -57,16 +57,18 @@ impl<'a> Caustics<'a> {
             .into_par_iter()
             .filter(|_| !cancelled())
             .map(|chunk| {
-                let mut tracer = Tracer { caustics: self, photons: Vec::new(), rays: 0 };
+                let mut tracer =
+                    Tracer { caustics: self, photons: Vec::new(), counters: Counters::default() };
                 for photon in chunk * CHUNK..count.min((chunk + 1) * CHUNK) {
                     tracer.emit(&pass.photon_sampler(photon), 1.0 / count as f32);
                 }
-                (tracer.photons, tracer.rays)
+                (tracer.photons, tracer.counters)
             })
             .collect();
-        let rays = chunks.iter().map(|(_, rays)| rays).sum();
+        chunks.iter().for_each(|(_, of_chunk)| *counters += *of_chunk);
         let photons: Vec<Photon> = chunks.into_iter().flat_map(|(photons, _)| photons).collect();
-        *counters += Counters { rays, photons: count.into(), stored_photons: photons.len() as u64 };
+        counters.photons += u64::from(count);
+        counters.stored_photons += photons.len() as u64;
         self.map = PhotonMap::new(&photons);
     }
 
@@ -109,7 +111,7 @@ impl<'a> Caustics<'a> {
 struct Tracer<'a> {
     caustics: &'a Caustics<'a>,
     photons: Vec<Photon>,
-    rays: u64,
+    counters: Counters,
 }
 
 impl Tracer<'_> {
@@ -119,8 +121,7 @@ impl Tracer<'_> {
         let Some(start) = aim.emit(sampler) else { return };
         let mut flight = Flight::new(world, start.ray, start.power * share, sampler);
         while flight.bounce + 1 < *max_depth {
-            self.rays += 1;
-            let Some((surface, bsdf)) = flight.arrive() else { return };
+            let Some((surface, bsdf)) = flight.arrive(&mut self.counters) else { return };
             let is_first = flight.bounce == 0;
             if is_first && !aim.holds(surface.material, surface.prim, start.from_infinity) {
                 return;

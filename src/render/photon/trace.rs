@@ -45,17 +45,18 @@ pub fn trace_photons(
         .into_par_iter()
         .filter(|_| !cancelled())
         .map(|chunk| {
-            let mut tracer = Tracer { world, max_depth, photons: Vec::new(), rays: 0 };
+            let mut tracer = Tracer { world, max_depth, photons: Vec::new(), counters: Counters::default() };
             for photon in chunk * CHUNK..count.min((chunk + 1) * CHUNK) {
                 tracer.emit(&pass.photon_sampler(photon), 1.0 / count as f32);
             }
-            (tracer.photons, tracer.rays)
+            (tracer.photons, tracer.counters)
         })
         .collect();
-    let rays = chunks.iter().map(|(_, rays)| rays).sum();
+    let mut counters = Counters { photons: count.into(), ..Counters::default() };
+    chunks.iter().for_each(|(_, of_chunk)| counters += *of_chunk);
     let photons: Vec<Photon> = chunks.into_iter().flat_map(|(photons, _)| photons).collect();
-    let stored_photons = photons.len() as u64;
-    (photons, Counters { rays, photons: count.into(), stored_photons })
+    counters.stored_photons = photons.len() as u64;
+    (photons, counters)
 }
 
 /// Follows photons one after the other.
@@ -63,7 +64,7 @@ struct Tracer<'a> {
     world: &'a World,
     max_depth: u32,
     photons: Vec<Photon>,
-    rays: u64,
+    counters: Counters,
 }
 
 impl Tracer<'_> {
@@ -75,8 +76,7 @@ impl Tracer<'_> {
         let start = light.sample_emission(&self.world.geometry, u_pos, u_dir);
         let mut flight = Flight::new(self.world, start.ray, start.weight * (share / pmf), sampler);
         while flight.bounce + 1 < self.max_depth {
-            self.rays += 1;
-            let Some((surface, bsdf)) = flight.arrive() else { return };
+            let Some((surface, bsdf)) = flight.arrive(&mut self.counters) else { return };
             if bsdf.lobes().iter().any(gathers) {
                 self.photons.push(flight.photon(&surface));
             }
@@ -107,12 +107,15 @@ impl<'a> Flight<'a> {
 
     /// Goes to the next surface; `None` if there is none, or if nothing arrives.
     #[inline]
-    pub fn arrive(&mut self) -> Option<(SurfacePoint, Bsdf)> {
+    pub fn arrive(&mut self, counters: &mut Counters) -> Option<(SurfacePoint, Bsdf)> {
+        counters.rays += 1;
         let hit = self.world.closest_hit(&self.ray)?;
         let surface = self.world.interaction(&self.ray, &hit);
         let bsdf = self.world.bsdf_between(&surface, -self.ray.d, &self.media);
         self.power *= self.media.transmittance(hit.t, &self.world.materials);
-        (!self.power.is_black() && self.power.is_valid()).then_some((surface, bsdf))
+        let is_valid = self.power.is_valid();
+        counters.bad_light += u64::from(!is_valid);
+        (is_valid && !self.power.is_black()).then_some((surface, bsdf))
     }
 
     /// What it leaves on the surface it is at.
