@@ -65,11 +65,30 @@ fn the_probabilities_of_all_lights_add_up_to_one() {
     }
 }
 
+/// Of two lamps alike each is drawn half the time, though beside one of them a spot shines that never reaches the point.
+#[test]
+fn a_spot_that_shines_past_hides_no_lamp() {
+    let lamp = |x: f32| LightBounds {
+        bounds: Bounds::new(Vec3::X * x, Vec3::X * x),
+        intensity: 1.0,
+        normals: Cone::ALL,
+        cos_reach: 0.0,
+        two_sided: false,
+    };
+    let spot = LightBounds { intensity: 100.0, normals: Cone::around(Vec3::Y), cos_reach: 0.9, ..lamp(1.01) };
+    let tree = LightTree::new(&[lamp(-1.0), lamp(1.0), spot]);
+    let from = Viewpoint { p: Vec3::NEG_Y, n: None };
+    assert!((tree.pmf(&from, 0) - 0.5).abs() < 1e-6, "{}", tree.pmf(&from, 0));
+}
+
 #[test]
 fn lights_are_drawn_as_often_as_their_probability_says() {
-    let n = 60;
+    [7, 60].into_iter().for_each(assert_drawn_as_often);
+}
+
+fn assert_drawn_as_often(n: u32) {
     let tree = LightTree::new(&lights(n));
-    let tests = viewpoints().count();
+    let tests = 2 * viewpoints().count();
     for from in viewpoints() {
         let draws = 20_000;
         // The last bin counts the draws of nothing.

@@ -3,7 +3,7 @@
 //! On the way from the root to a light each turn is taken with the probability that the two sides seem to deserve, seen
 //! from the point: intensity over squared distance, less where they shine past it or stand low over its surface. The work
 //! grows with the logarithm of the number of lights (Conty Estevez & Kulla 2018; Pharr, Jakob, Humphreys 2023, section
-//! 12.6.3).
+//! 12.6.3). A group is overrated by those of its lights that shine past the point; so a few lights are all looked at instead.
 
 use super::cone::{Cone, cos_less, sin_less, sin_of};
 use crate::math::{Bounds, Vec3, float};
@@ -113,6 +113,8 @@ enum Kind {
     Leaf(u32),
 }
 
+/// Up to so many lights are all looked at.
+const FEW: usize = 8;
 /// Groups that a branch may be cut between, along each axis.
 const BINS: usize = 12;
 /// Below this depth groups are halved by number, so that no arrangement of lights makes the tree deep.
@@ -150,11 +152,29 @@ impl LightTree {
 
     /// About the irradiance that all lights together may send to a point, in W·m⁻².
     pub fn importance(&self, from: &Viewpoint) -> f32 {
-        self.nodes.first().map_or(0.0, |root| root.bounds.importance(from))
+        match self.each(from) {
+            Some(each) => each.iter().sum(),
+            None => self.nodes.first().map_or(0.0, |root| root.bounds.importance(from)),
+        }
+    }
+
+    /// The importances of a few lights; `None` of many.
+    fn each(&self, from: &Viewpoint) -> Option<[f32; FEW]> {
+        if self.leaves.len() > FEW {
+            return None;
+        }
+        let mut each = [0.0; FEW];
+        for (importance, &leaf) in each.iter_mut().zip(&self.leaves) {
+            *importance = self.nodes[leaf as usize].bounds.importance(from);
+        }
+        Some(each)
     }
 
     /// A light with its probability, by `u` in [0, 1); `None` where none shines at the point.
     pub fn sample(&self, from: &Viewpoint, mut u: f64) -> Option<(u32, f32)> {
+        if let Some(each) = self.each(from) {
+            return sample_of(&each, u);
+        }
         let (mut at, mut pmf) = (0, 1.0);
         loop {
             match self.nodes.get(at as usize)?.kind {
@@ -175,6 +195,10 @@ impl LightTree {
 
     /// The probability with which [`Self::sample`] draws a light.
     pub fn pmf(&self, from: &Viewpoint, light: u32) -> f32 {
+        if let Some(each) = self.each(from) {
+            let sum: f32 = each.iter().sum();
+            return if sum > 0.0 && sum.is_finite() { each[light as usize] / sum } else { 0.0 };
+        }
         let (mut at, mut pmf) = (self.leaves[light as usize], 1.0);
         while at != 0 {
             let parent = self.nodes[at as usize].parent;
@@ -192,6 +216,21 @@ impl LightTree {
         let sum = a + b;
         (sum > 0.0 && sum.is_finite()).then(|| a / sum)
     }
+}
+
+/// Draws one in proportion to its importance, with its probability.
+fn sample_of(each: &[f32; FEW], u: f64) -> Option<(u32, f32)> {
+    let sum: f32 = each.iter().sum();
+    let mut rest = u * f64::from(sum);
+    let mut drawn = None;
+    for (light, &importance) in (0..).zip(each).filter(|(_, importance)| **importance > 0.0) {
+        drawn = Some((light, importance / sum));
+        rest -= f64::from(importance);
+        if rest < 0.0 {
+            break;
+        }
+    }
+    drawn.filter(|_| sum.is_finite())
 }
 
 /// Orders lights so that those before and those after the index returned make the cheapest pair of groups.
