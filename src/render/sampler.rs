@@ -142,8 +142,11 @@ fn mix(x: u64) -> u64 {
 }
 
 /// A number in [0, 1) that follows from a ray and what it meets: for choices that belong to no vertex of a path.
+///
+/// Of the ray it asks for signs and digits, not for exponents, so that a scene in other units makes the same choices.
 pub fn hash_unit(o: Vec3, d: Vec3, item: u32) -> f32 {
-    let words = [o.x, o.y, o.z, d.x, d.y, d.z].map(f32::to_bits);
+    const SIGN_AND_DIGITS: u32 = 0x807f_ffff;
+    let words = [o.x, o.y, o.z, d.x, d.y, d.z].map(|x| x.to_bits() & SIGN_AND_DIGITS);
     let hash = words.into_iter().chain([item]).fold(0, |hash, word| mix(hash ^ u64::from(word)));
     to_unit((hash >> 32) as u32)
 }
