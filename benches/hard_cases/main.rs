@@ -2,7 +2,7 @@
 //! the time of both, as a page.
 //!
 //! ```text
-//! cargo bench --bench hard_cases > docs/hard-cases.md
+//! cargo bench --bench hard_cases --features naive > docs/hard-cases.md
 //! ```
 //!
 //! Nanoseconds are those of the thread alone, the least of five runs that take turns. Both forms get the same input.
@@ -11,7 +11,10 @@
 #[path = "../../tests/support/mod.rs"]
 mod support;
 
+mod precision;
 mod remedies;
+mod scenes;
+mod whole;
 
 use rustix::time::{ClockId, clock_gettime};
 use std::hint::black_box;
@@ -75,4 +78,9 @@ fn main() {
             robust.name, robust.failures, robust.nanoseconds
         );
     }
+    println!("\n{}", include_str!("whole.md"));
+    whole::print();
+    println!("\n{}", include_str!("precision.md"));
+    precision::print();
+    print!("\n{}", include_str!("at_length.md"));
 }

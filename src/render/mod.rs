@@ -13,6 +13,8 @@ pub mod integrator;
 pub mod ledger;
 pub mod light;
 pub mod media;
+#[cfg(feature = "naive")]
+pub mod naive;
 pub mod photon;
 pub mod sampler;
 pub mod shape;

@@ -5,7 +5,7 @@
 
 use super::wide::{Node, Row, WIDTH};
 use crate::math::{Ray, Vec3, float};
-use crate::render::shape::triangle::{Edges, ShearedRay, TriangleBlock};
+use crate::render::shape::triangle::{ShearedRay, TriangleBlock, TriangleHit};
 
 /// The factor on exit distances that makes up for the rounding of both: 1 + 2γ(3) (Ize 2013).
 pub const EXIT_SLACK: f32 = 1.0 + 2.0 * float::gamma(3);
@@ -36,14 +36,38 @@ impl BoxRay {
     }
 }
 
+/// A ray, prepared for both tests.
+#[derive(Clone, Copy)]
+pub struct KernelRay {
+    /// For boxes.
+    pub boxes: BoxRay,
+    /// For triangles.
+    pub triangles: ShearedRay,
+}
+
+impl KernelRay {
+    /// Prepares `ray`.
+    #[inline(always)]
+    pub fn new(ray: &Ray) -> Self {
+        Self { boxes: BoxRay::new(ray), triangles: ShearedRay::new(ray) }
+    }
+}
+
 /// What a traversal asks of a processor.
 pub trait Kernel: Copy {
-    /// A bit for each child of `node` that the ray may meet before `t_max`, and where it enters each.
-    fn boxes(self, ray: &BoxRay, node: &Node, t_max: f32) -> (u32, Row);
+    /// A ray, prepared for the tests.
+    type Ray;
+    /// A box that the ray enters at `t` is worth a visit if `t` is at most this times the nearest hit.
+    const SLACK: f32;
 
-    /// A bit for each lane of `block` whose triangle the line of the ray meets in single precision, with the edge
-    /// functions; `None` where there is no such lane.
-    fn triangles(self, ray: &ShearedRay, block: &TriangleBlock) -> Option<(u32, Edges)>;
+    /// Prepares `ray`.
+    fn prepare(self, ray: &Ray) -> Self::Ray;
+
+    /// A bit for each child of `node` that the ray may meet before `t_max`, and where it enters each.
+    fn boxes(self, ray: &Self::Ray, node: &Node, t_max: f32) -> (u32, Row);
+
+    /// Calls `found` for each lane of `block` whose triangle the line of the ray meets, whatever the sign of `t`.
+    fn triangles(self, ray: &Self::Ray, block: &TriangleBlock, found: impl FnMut(u32, TriangleHit));
 
     /// Says that `place` will be read soon.
     fn prefetch<T>(self, place: *const T);
@@ -54,8 +78,16 @@ pub trait Kernel: Copy {
 pub struct Portable;
 
 impl Kernel for Portable {
+    type Ray = KernelRay;
+    const SLACK: f32 = EXIT_SLACK;
+
     #[inline(always)]
-    fn boxes(self, ray: &BoxRay, node: &Node, t_max: f32) -> (u32, Row) {
+    fn prepare(self, ray: &Ray) -> KernelRay {
+        KernelRay::new(ray)
+    }
+
+    #[inline(always)]
+    fn boxes(self, KernelRay { boxes: ray, .. }: &KernelRay, node: &Node, t_max: f32) -> (u32, Row) {
         let mut entry: Row = [0.0; WIDTH];
         let mut exit: Row = [t_max; WIDTH];
         for axis in 0..3 {
@@ -77,10 +109,10 @@ impl Kernel for Portable {
     }
 
     #[inline(always)]
-    fn triangles(self, ray: &ShearedRay, block: &TriangleBlock) -> Option<(u32, Edges)> {
-        let edges = block.edges(ray);
+    fn triangles(self, ray: &KernelRay, block: &TriangleBlock, found: impl FnMut(u32, TriangleHit)) {
+        let mut edges = block.edges(&ray.triangles);
         let inside = edges.inside();
-        (inside != 0).then_some((inside, edges))
+        block.finish(&ray.triangles, &mut edges, inside, found);
     }
 
     #[inline(always)]

@@ -9,11 +9,15 @@
 
 #![allow(unsafe_code)]
 
-use super::kernel::{BoxRay, EXIT_SLACK, Kernel};
+#[cfg(feature = "naive")]
+pub mod naive;
+
+use super::kernel::{EXIT_SLACK, Kernel, KernelRay};
 use super::walk::{Query, walk};
 use super::wide::{Node, Row};
+use crate::math::Ray;
 use crate::render::geometry::Nearest;
-use crate::render::shape::triangle::{Edges, ShearedRay, TriangleBlock};
+use crate::render::shape::triangle::{Edges, ShearedRay, TriangleBlock, TriangleHit};
 use std::arch::x86_64::{
     __m128, _CMP_GE_OQ, _CMP_LE_OQ, _MM_HINT_T0, _mm_cmp_ps, _mm_load_ps, _mm_max_ps, _mm_min_ps,
     _mm_movemask_ps, _mm_mul_ps, _mm_or_ps, _mm_prefetch, _mm_set1_ps, _mm_setzero_ps, _mm_storeu_ps,
@@ -45,8 +49,16 @@ impl Avx2 {
 }
 
 impl Kernel for Avx2 {
+    type Ray = KernelRay;
+    const SLACK: f32 = EXIT_SLACK;
+
     #[inline(always)]
-    fn boxes(self, ray: &BoxRay, node: &Node, t_max: f32) -> (u32, Row) {
+    fn prepare(self, ray: &Ray) -> KernelRay {
+        KernelRay::new(ray)
+    }
+
+    #[inline(always)]
+    fn boxes(self, KernelRay { boxes: ray, .. }: &KernelRay, node: &Node, t_max: f32) -> (u32, Row) {
         // SAFETY: `self` proves that the processor has AVX2. Rows are below 6, so every load is within `faces`, whose
         // rows are aligned to 32 bytes because a node is to 64; the store fills `entries` exactly.
         unsafe {
@@ -68,9 +80,14 @@ impl Kernel for Avx2 {
     }
 
     #[inline(always)]
-    fn triangles(self, ray: &ShearedRay, block: &TriangleBlock) -> Option<(u32, Edges)> {
+    fn triangles(
+        self,
+        KernelRay { triangles: ray, .. }: &KernelRay,
+        block: &TriangleBlock,
+        found: impl FnMut(u32, TriangleHit),
+    ) {
         // SAFETY: `self` proves that the processor has AVX2; what is called loads and stores within its arguments.
-        unsafe {
+        let (inside, mut edges) = unsafe {
             let (a, b, c) = (sheared(ray, block, 0), sheared(ray, block, 1), sheared(ray, block, 2));
             let u = _mm_sub_ps(_mm_mul_ps(c[0], b[1]), _mm_mul_ps(c[1], b[0]));
             let v = _mm_sub_ps(_mm_mul_ps(a[0], c[1]), _mm_mul_ps(a[1], c[0]));
@@ -81,11 +98,12 @@ impl Kernel for Avx2 {
             let negative = _mm_cmp_ps::<_CMP_LE_OQ>(high, zero);
             let inside = _mm_movemask_ps(_mm_or_ps(positive, negative));
             if inside == 0 {
-                return None;
+                return;
             }
             let depth = [stored(a[2]), stored(b[2]), stored(c[2])];
-            Some((inside as u32, Edges { u: stored(u), v: stored(v), w: stored(w), depth }))
-        }
+            (inside as u32, Edges { u: stored(u), v: stored(v), w: stored(w), depth })
+        };
+        block.finish(ray, &mut edges, inside, found);
     }
 
     #[inline(always)]

@@ -1,10 +1,9 @@
 //! The way of a ray through the tree.
 
-use super::kernel::{BoxRay, EXIT_SLACK, Kernel};
+use super::kernel::Kernel;
 use super::wide::{Child, Kind, Node, Row, Wide};
 use crate::math::Ray;
 use crate::render::geometry::{Hit, Nearest, PrimId};
-use crate::render::shape::triangle::{ShearedRay, TriangleBlock};
 
 /// Stacks up to this size need no memory from the heap.
 const SMALL_STACK: usize = 96;
@@ -40,7 +39,7 @@ fn walk_with<K: Kernel, const ANY: bool>(
     nearest: &mut Nearest,
     mut stack: Stack<'_>,
 ) {
-    let (boxes, sheared) = (BoxRay::new(query.ray), ShearedRay::new(query.ray));
+    let ray = kernel.prepare(query.ray);
     let tree = query.tree;
     let mut child = Some(Child::ROOT);
     while let Some(here) = child {
@@ -48,7 +47,7 @@ fn walk_with<K: Kernel, const ANY: bool>(
             // Down to what the ray enters first, leaving the rest on the stack.
             Kind::Node(node) => {
                 let node = &tree.nodes[node];
-                let (met, entry) = kernel.boxes(&boxes, node, nearest.t);
+                let (met, entry) = kernel.boxes(&ray, node, nearest.t);
                 if met != 0 {
                     child =
                         Some(stack.enter::<ANY>(node, met, &entry, |child| prefetch(kernel, tree, child)));
@@ -57,7 +56,10 @@ fn walk_with<K: Kernel, const ANY: bool>(
             }
             Kind::Blocks(blocks) => {
                 for block in &tree.blocks[blocks] {
-                    offer_triangles(kernel, block, &sheared, query.first_prim, nearest);
+                    kernel.triangles(&ray, block, |prim, hit| {
+                        let prim = PrimId(query.first_prim + prim);
+                        nearest.offer(Some(Hit { t: hit.t, prim, uv: hit.uv }));
+                    });
                 }
                 if ANY && nearest.hit.is_some() {
                     return;
@@ -70,22 +72,7 @@ fn walk_with<K: Kernel, const ANY: bool>(
                 }
             }
         }
-        child = stack.pop(nearest.t);
-    }
-}
-
-#[inline(always)]
-fn offer_triangles<K: Kernel>(
-    kernel: K,
-    block: &TriangleBlock,
-    ray: &ShearedRay,
-    first_prim: u32,
-    nearest: &mut Nearest,
-) {
-    if let Some((inside, mut edges)) = kernel.triangles(ray, block) {
-        block.finish(ray, &mut edges, inside, |prim, hit| {
-            nearest.offer(Some(Hit { t: hit.t, prim: PrimId(first_prim + prim), uv: hit.uv }));
-        });
+        child = stack.pop(nearest.t * K::SLACK);
     }
 }
 
@@ -150,13 +137,13 @@ impl Stack<'_> {
         first.child
     }
 
-    /// The last that was pushed and that the ray enters before `t_max`.
+    /// The last that was pushed and that the ray enters by `t_max`.
     #[inline(always)]
     fn pop(&mut self, t_max: f32) -> Option<Child> {
         while self.top > 0 {
             self.top -= 1;
             let entry = self.entries[self.top];
-            if entry.t <= t_max * EXIT_SLACK {
+            if entry.t <= t_max {
                 return Some(entry.child);
             }
         }

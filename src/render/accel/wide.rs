@@ -178,6 +178,10 @@ impl Wide {
         let query = Query { tree: self, ray, first_prim, hit_boxed: &hit_boxed };
         #[cfg(target_arch = "x86_64")]
         if let Some(avx2) = self.avx2 {
+            #[cfg(feature = "naive")]
+            if super::simd::naive::walk_naively::<ANY>(avx2, &query, nearest) {
+                return;
+            }
             return avx2.walk::<ANY>(&query, nearest);
         }
         walk::<Portable, ANY>(Portable, &query, nearest);

@@ -3,6 +3,8 @@
 use super::instance::PlacedMesh;
 use super::{AreaSample, Geometry, Hit, Prim, PrimId, SurfacePoint};
 use crate::math::{DVec3, Ray, Vec2, Vec3, float};
+#[cfg(feature = "naive")]
+use crate::render::naive::{self, Remedy};
 use crate::render::shape::Mesh;
 use crate::render::shape::solid::{SolidHit, orthogonal_tangent};
 use crate::render::shape::triangle::cross_of_edges;
@@ -49,6 +51,10 @@ impl AreaSample {
 /// The shift is the extent of the error box along `n`; the result is rounded away from the surface
 /// (Pharr, Jakob, Humphreys 2023, section 6.8.6).
 fn offset(p: Vec3, p_error: Vec3, n: Vec3, dir: Vec3) -> Vec3 {
+    #[cfg(feature = "naive")]
+    if naive::lacks(Remedy::Origins) {
+        return p + dir * naive::FIXED_OFFSET;
+    }
     if p_error == Vec3::ZERO {
         return p;
     }
@@ -121,6 +127,11 @@ fn placed_point(placed: &PlacedMesh, mesh: &Mesh, triangle: [u32; 3], b: Vec2, p
 /// The sum is the rounding of coordinates, axis by axis. The size of the triangle is what its test rounds by, once it
 /// has sheared the axes into each other: a point of the plane z = 0, where no z is ever rounded, still needs that room.
 pub(super) fn interpolate_point(corners: Corners, b: Vec2) -> (DVec3, DVec3) {
+    #[cfg(feature = "naive")]
+    if naive::lacks(Remedy::Origins) {
+        let [p0, p1, p2] = corners.map(|p| p.as_vec3());
+        return ((p0 * (1.0 - b.x - b.y) + p1 * b.x + p2 * b.y).as_dvec3(), DVec3::ZERO);
+    }
     let low = corners[0].min(corners[1]).min(corners[2]);
     let high = corners[0].max(corners[1]).max(corners[2]);
     let b = weights(b);

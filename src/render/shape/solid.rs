@@ -1,5 +1,8 @@
 //! A solid in its place: intersected in double precision in its own frame, with `t` preserved.
 
+#[cfg(feature = "naive")]
+mod naive;
+
 use super::revolve::Revolve;
 use super::{Solid, SolidKind, sphere};
 use crate::math::{Bounds, DAffine3, DMat3, DVec3, Frame, Ray, Vec2, Vec3, float, warp};
@@ -22,6 +25,8 @@ pub struct PlacedSolid {
     /// At most the radius of the sharpest bend of a sphere or torus, in the world; infinite for what is flat or has corners.
     radius: f64,
     area: f64,
+    #[cfg(feature = "naive")]
+    naive: Option<naive::Sphere>,
 }
 
 /// Where a ray meets a solid.
@@ -39,6 +44,8 @@ impl PlacedSolid {
         let object_from_world = solid.world_from_object.inverse();
         Self {
             area: area(&solid.kind, &solid.world_from_object),
+            #[cfg(feature = "naive")]
+            naive: naive::Sphere::of(&solid),
             object_from_world,
             normal_from_object: object_from_world.matrix3.transpose(),
             determinant: solid.world_from_object.matrix3.determinant().abs(),
@@ -67,6 +74,10 @@ impl PlacedSolid {
 
     /// The first intersection with `t` in the open interval (0, `ray.t_max`).
     pub fn intersect(&self, ray: &Ray) -> Option<SolidHit> {
+        #[cfg(feature = "naive")]
+        if let Some(sphere) = self.naive() {
+            return sphere.intersect(ray);
+        }
         let (o, d) = self.ray_object(ray);
         let within = |t: f64| (0.0 < t as f32 && (t as f32) < ray.t_max).then_some(t as f32);
         let plain = |t: f32| SolidHit { t, uv: Vec2::ZERO };
@@ -89,6 +100,10 @@ impl PlacedSolid {
 
     /// Everything about the point where `ray` met this solid.
     pub fn surface_point(&self, ray: &Ray, hit: SolidHit, prim: PrimId) -> SurfacePoint {
+        #[cfg(feature = "naive")]
+        if let Some(sphere) = self.naive() {
+            return sphere.surface_point(&self.solid, ray, hit, prim);
+        }
         let (o, d) = self.ray_object(ray);
         let at = |t: f64| o + d * t;
         let t = f64::from(hit.t);
@@ -267,6 +282,12 @@ impl PlacedSolid {
         };
         let slack = (low.abs().max(high.abs())) * FRAME_ERROR;
         Some(Bounds::enclosing(low - slack, high + slack))
+    }
+
+    /// The sphere that this is, if spheres are to be tested in single precision.
+    #[cfg(feature = "naive")]
+    fn naive(&self) -> Option<&naive::Sphere> {
+        self.naive.as_ref().filter(|_| crate::render::naive::lacks(crate::render::naive::Remedy::Spheres))
     }
 
     fn revolve(&self) -> &Revolve {
