@@ -24,6 +24,18 @@ struct Station {
     p: DVec3,
     /// A unit vector along the path.
     along: DVec3,
+    /// The corner that it is at.
+    mitre: Option<Mitre>,
+}
+
+/// How the inner side of a corner between straight pieces is cut, so that the tube does not run into itself: by the plane
+/// that halves the corner.
+#[derive(Clone, Copy)]
+struct Mitre {
+    /// What the path turns about: a unit vector.
+    axis: DVec3,
+    /// Towards the inner side, in the plane of the cut, as long as the cut is stretched there.
+    inwards: DVec3,
 }
 
 /// A ring of the tube.
@@ -37,13 +49,23 @@ struct Ring {
     /// The normal leans by this tangent against the path.
     lean: f64,
     v: f64,
+    mitre: Option<Mitre>,
+}
+
+impl Ring {
+    /// How far it reaches in the direction `out`, in its radii: on the inner side of a corner as far as the cut.
+    fn reach(&self, out: DVec3) -> DVec3 {
+        let Some(Mitre { axis, inwards }) = self.mitre else { return out };
+        let depth = out.dot(axis.cross(self.along));
+        if depth > 0.0 { axis * out.dot(axis) + inwards * depth } else { out }
+    }
 }
 
 /// The tube as triangles whose chords stay within `tolerance` of it.
 ///
 /// Rings turn about the path as little as they can (the double reflection of Wang, Jüttler, Zheng, Liu 2008); on a closed
 /// path what is left of a turn is spread over all of it. At corners of the path rings turn about the corner, so that the
-/// outer side is round.
+/// outer side is round; their inner side, between straight pieces that are long enough, lies in the plane that halves it.
 pub fn tube(tube: &Tube<'_>, tolerance: f64) -> Triangles {
     let widest = tube.radii[0].max(tube.radii[1]);
     let around = segments_around(widest, tolerance);
@@ -79,6 +101,7 @@ fn end(ring: &Ring, sign: f64, caps: Caps, around: u32) -> Vec<Ring> {
         Ring {
             center: ring.center + ring.along * (sign * ring.radius * cos),
             radius: if i == 0 { 0.0 } else { ring.radius * sin },
+            mitre: None,
             lean: sign * cos / sin.max(1e-9),
             ..*ring
         }
@@ -102,7 +125,8 @@ fn rings(tube: &Tube<'_>, stations: &[Station]) -> Vec<Ring> {
         }
         let share = if length > 0.0 { travelled / length } else { 0.0 };
         let radius = if tube.closed { start } else { start + (end - start) * share };
-        rings.push(Ring { center: station.p, along: station.along, across, radius, lean, v: share });
+        let Station { p: center, along, mitre } = *station;
+        rings.push(Ring { center, along, across, radius, lean, v: share, mitre });
     }
     if tube.closed {
         untwist(&mut rings);
@@ -110,8 +134,14 @@ fn rings(tube: &Tube<'_>, stations: &[Station]) -> Vec<Ring> {
     rings
 }
 
-/// A vector across the path, carried from one station to the next by two reflections.
+/// A vector across the path, carried from one station to the next by two reflections; at a corner, where they are in one
+/// place, by the least turn that takes one direction to the other.
 fn transported(from: &Station, to: &Station, across: DVec3) -> DVec3 {
+    if from.p == to.p {
+        let turned = to.along.dot(across) / (1.0 + from.along.dot(to.along));
+        let carried = across - (from.along + to.along) * turned;
+        return carried.normalize_or(to.along.any_orthonormal_vector());
+    }
     let reflected = |v: DVec3, n: DVec3| {
         let square = n.length_squared();
         if square > 0.0 { v - n * (2.0 * n.dot(v) / square) } else { v }
@@ -141,37 +171,65 @@ fn stations(path: &Path, closed: bool, radius: f64, tolerance: f64, around: u32)
     let pieces = pieces(path, closed);
     let mut stations: Vec<Station> = Vec::new();
     let turn = TAU / f64::from(around);
-    let first_along = pieces.first().map(|piece| tangent(piece, 0.0));
-    for piece in &pieces {
-        let start = tangent(piece, 0.0);
-        if let Some(last) = stations.last().copied() {
-            corner(&mut stations, last, start, turn);
+    for (i, piece) in pieces.iter().enumerate() {
+        if i > 0 {
+            corner(&mut stations, &pieces[i - 1], piece, radius, turn);
         }
         let steps = steps(piece, radius, tolerance);
         let from = usize::from(!stations.is_empty());
         for i in from..=steps {
             let t = i as f64 / steps as f64;
-            stations.push(Station { p: point(piece, t), along: tangent(piece, t) });
+            stations.push(Station { p: point(piece, t), along: tangent(piece, t), mitre: None });
         }
     }
-    if let (true, Some(last), Some(along)) = (closed, stations.last().copied(), first_along) {
-        corner(&mut stations, last, along, turn);
+    if let (true, Some(last), Some(first)) = (closed, pieces.last(), pieces.first()) {
+        corner(&mut stations, last, first, radius, turn);
+        // The first ring is the last of this corner.
+        if let Some(mitre) = stations.last().map(|last| last.mitre) {
+            stations[0].mitre = mitre;
+        }
     }
     stations
 }
 
-/// Turns from one direction to another in place, by steps of `turn` at most.
-fn corner(stations: &mut Vec<Station>, last: Station, along: DVec3, turn: f64) {
+/// How the inner side of the corner between two pieces is cut; `None` where it has to run through itself: at what is bent,
+/// or too short for the cut.
+fn mitre(before: &Cubic, after: &Cubic, radius: f64) -> Option<Mitre> {
+    let [a, b] = [tangent(before, 1.0), tangent(after, 0.0)];
+    let half = libm::atan2(a.cross(b).length(), a.dot(b)) / 2.0;
+    // Another cut at the other end of a piece may need as much.
+    let has_room = |piece: &Cubic| {
+        let chord = piece[3] - piece[0];
+        // As `pieces` makes lines; their thirds are rounded.
+        let is_line =
+            piece[1] == piece[0].lerp(piece[3], 1.0 / 3.0) && piece[2] == piece[0].lerp(piece[3], 2.0 / 3.0);
+        is_line && 2.0 * radius * libm::tan(half) < chord.length()
+    };
+    if !(has_room(before) && has_room(after)) {
+        return None;
+    }
+    let inwards = (b - a).try_normalize()? / libm::cos(half);
+    Some(Mitre { axis: a.cross(b).try_normalize()?, inwards })
+}
+
+/// Turns from the end of one piece to the start of the next in place, by steps of `turn` at most.
+fn corner(stations: &mut Vec<Station>, before: &Cubic, after: &Cubic, radius: f64, turn: f64) {
+    let Some(last) = stations.last().copied() else { return };
+    let along = tangent(after, 0.0);
     let axis = last.along.cross(along);
     let angle = libm::atan2(axis.length(), last.along.dot(along));
     /// Less is rounding: the path is smooth there.
     const STRAIGHT: f64 = 1e-6;
     let steps = if angle > STRAIGHT { (angle / turn).ceil() as usize } else { 0 };
     let axis = axis.normalize_or(last.along.any_orthonormal_vector());
+    let mitre = if steps > 0 { mitre(before, after, radius) } else { None };
+    if let Some(last) = stations.last_mut() {
+        last.mitre = mitre;
+    }
     for i in 1..=steps {
         let (sin, cos) = libm::sincos(angle * i as f64 / steps as f64);
         let turned = if i == steps { along } else { last.along * cos + axis.cross(last.along) * sin };
-        stations.push(Station { p: last.p, along: turned.normalize() });
+        stations.push(Station { p: last.p, along: turned.normalize(), mitre });
     }
 }
 
@@ -275,7 +333,7 @@ impl Triangles {
             let out = ring.across * cos + up * sin;
             let normal = (out + ring.along * ring.lean).normalize();
             let uv = Vec2::new((f64::from(j) / f64::from(around)) as f32, ring.v as f32);
-            self.add_vertex(ring.center + out * ring.radius, normal, uv);
+            self.add_vertex(ring.center + ring.reach(out) * ring.radius, normal, uv);
         }
     }
 
@@ -349,6 +407,28 @@ mod tests {
         assert_outwards(&ring);
         let expected = 2.0 * PI * PI * 0.04;
         assert!((volume(&ring) / expected - 1.0).abs() < 0.02, "{} for {expected}", volume(&ring));
+    }
+
+    #[test]
+    fn rings_turn_about_a_corner_without_twisting() {
+        // A corner adds a wedge of a ball on its outer side, and on its inner side takes what the plane cuts from both pieces.
+        let bends = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.2, 1.0, 0.3], [0.1, 1.1, -0.4]];
+        for (closed, corners) in [(false, &bends[..3]), (false, &bends), (true, &bends)] {
+            let tube = swept(&path(CurveKind::Polyline, corners), [0.1, 0.1], Caps::Flat, closed);
+            let ends = corners.iter().zip(corners.iter().cycle().skip(1));
+            let sides = ends.map(|(a, b)| DVec3::from(*a).distance(DVec3::from(*b)));
+            let length: f64 = sides.take(corners.len() - usize::from(!closed)).sum();
+            let corner = |[a, b, c]: [[f64; 3]; 3]| {
+                let [a, b, c] = [a, b, c].map(DVec3::from);
+                let angle = (b - a).angle_between(c - b);
+                2.0 / 3.0 * 0.001 * (angle - 2.0 * libm::tan(angle / 2.0))
+            };
+            let at = |i: usize| corners[i % corners.len()];
+            let count = if closed { corners.len() } else { corners.len() - 2 };
+            let turns: f64 = (0..count).map(|i| corner([at(i), at(i + 1), at(i + 2)])).sum();
+            let expected = PI * 0.01 * length + turns;
+            assert!((volume(&tube) / expected - 1.0).abs() < 5e-3, "{} for {expected}", volume(&tube));
+        }
     }
 
     #[test]
