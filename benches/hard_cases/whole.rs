@@ -12,8 +12,8 @@ use std::hint::black_box;
 
 /// Passes of a picture.
 const PASSES: u32 = 4;
-/// How often each picture is made, in turns; the least time counts.
-const ROUNDS: usize = 7;
+/// How often each picture is made, in turns; the median of the ratios counts.
+const ROUNDS: usize = 9;
 /// Two values of a pixel differ by more than noise in the last place from here on.
 const FAR: f32 = 0.1;
 
@@ -28,8 +28,9 @@ const ROWS: [(&str, &[Remedy]); 5] = [
 
 /// A row's cell: its price, and what became of the picture.
 struct Cell {
-    /// Time with the remedy over time without.
+    /// Time with the remedy over time without, and half the distance between the quartiles of that.
     ratio: f64,
+    spread: f64,
     rays: Wrong,
     darker: usize,
     brighter: usize,
@@ -53,7 +54,10 @@ pub fn print() {
     let columns: Vec<Vec<Cell>> = NAMES.iter().map(|name| column(&Scene::new(name, PASSES))).collect();
     println!("| remedy, and what it replaces | S1 | S2 | S3 | S4 |\n|---|---:|---:|---:|---:|");
     for (i, (name, _)) in ROWS.iter().enumerate() {
-        let price = |cells: &Vec<Cell>| format!("{:+.1} %", (cells[i].ratio - 1.0) * 100.0);
+        let price = |cells: &Vec<Cell>| {
+            let Cell { ratio, spread, .. } = cells[i];
+            format!("{:+.1} ± {:.1} %", (ratio - 1.0) * 100.0, spread * 100.0)
+        };
         println!("| {name} | {} |", columns.iter().map(price).collect::<Vec<_>>().join(" | "));
     }
     let sums: Vec<String> = NAMES.iter().map(|name| film(&Scene::new(name, PASSES))).collect();
@@ -79,26 +83,29 @@ pub fn print() {
 
 /// Makes all pictures of a scene, in turns.
 fn column(scene: &Scene) -> Vec<Cell> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be started");
-    pool.install(|| {
-        let mut seconds = [f64::INFINITY; ROWS.len() + 1];
+    on_one_thread(|| {
+        let mut ratios: [Vec<f64>; ROWS.len()] = Default::default();
         for _ in 0..ROUNDS {
-            for (least, remedies) in seconds.iter_mut().zip(ways()) {
-                *least = least.min(timed(scene, remedies).1);
+            for (ratios, (_, remedies)) in ratios.iter_mut().zip(ROWS) {
+                // Each naive picture has a careful one before it and one after it.
+                let [before, naive, after] = [&[], remedies, &[]].map(|without| timed(scene, without).1);
+                ratios.push((before + after) / 2.0 / naive);
             }
         }
+        ratios.iter_mut().for_each(|ratios| ratios.sort_by(f64::total_cmp));
         let careful = timed(scene, &[]).0;
         let cells = ROWS.iter().enumerate().map(|(i, (_, remedies))| {
             let naive = timed(scene, remedies).0;
-            cell(scene, remedies, &careful, &naive, seconds[0] / seconds[i + 1])
+            cell(scene, remedies, &careful, &naive, &ratios[i])
         });
         cells.collect()
     })
 }
 
-/// With all remedies, then as each row.
-fn ways() -> impl Iterator<Item = &'static [Remedy]> {
-    [[].as_slice()].into_iter().chain(ROWS.iter().map(|(_, remedies)| *remedies))
+/// All of it on one thread, whose clock tells the whole time.
+fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread can be started");
+    pool.install(work)
 }
 
 fn timed(scene: &Scene, without: &[Remedy]) -> (Outcome, f64) {
@@ -110,7 +117,7 @@ fn timed(scene: &Scene, without: &[Remedy]) -> (Outcome, f64) {
     (outcome, seconds)
 }
 
-fn cell(scene: &Scene, remedies: &[Remedy], careful: &Outcome, naive: &Outcome, ratio: f64) -> Cell {
+fn cell(scene: &Scene, remedies: &[Remedy], careful: &Outcome, naive: &Outcome, ratios: &[f64]) -> Cell {
     let (reference, picture) = (careful.film.mean(), naive.film.mean());
     let is = |far: fn(f32, f32) -> bool| {
         let pairs = reference.iter().zip(&picture);
@@ -118,7 +125,8 @@ fn cell(scene: &Scene, remedies: &[Remedy], careful: &Outcome, naive: &Outcome, 
     };
     let mean = |picture: &[Rgb]| picture.iter().map(|pixel| f64::from(pixel.luminance())).sum::<f64>();
     Cell {
-        ratio,
+        ratio: ratios[ROUNDS / 2],
+        spread: (ratios[ROUNDS * 3 / 4] - ratios[ROUNDS / 4]) / 2.0,
         rays: wrong(scene, remedies),
         darker: is(|x, r| x < r * (1.0 - FAR)),
         brighter: is(|x, r| x > r * (1.0 + FAR)),
@@ -159,7 +167,7 @@ fn prim(surface: SurfacePoint) -> u32 {
 
 /// The part of a render that sums in double precision add, and by how much those in single are off.
 fn film(scene: &Scene) -> String {
-    let whole = timed(scene, &[]);
+    let whole = on_one_thread(|| timed(scene, &[]));
     let region = Region { x: 0, y: 0, width: SIDE, height: SIDE };
     let samples = whole.0.film.mean();
     let tiles = [Tile { region, samples: samples.clone() }];
