@@ -125,6 +125,10 @@ impl Teller<'_> {
             }
             Event::Lit { added } => line("lit", format!("adds {}", color(*added))),
             Event::Gathered { added } => line("gathered", format!("adds {}, and it ends", color(*added))),
+            Event::Sends => line("shared", "with pixels beside; from here on it counts by itself".to_owned()),
+            Event::Shared { paths, added } => {
+                let _ = writeln!(out, "  shared by {paths} paths: adds {}", color(*added));
+            }
             Event::Photons { added } => line("photons", format!("add {}", color(*added))),
             Event::Scattered { lobe, wi, weight, pdf, through } => {
                 let lobe = lobe.as_ref().map_or("no lobe", Lobe::name);

@@ -166,23 +166,15 @@ pub struct Outcome {
     pub stopped_by: StoppedBy,
     /// The error of the picture; `None` below two passes.
     pub error: Option<ErrorEstimate>,
-    /// Seconds of a thread spent on each tile's camera paths.
-    tile_seconds: Vec<f64>,
+    /// Seconds of a thread spent on each pixel's camera paths.
+    pixel_seconds: Vec<f64>,
 }
 
 impl Outcome {
     /// Seconds of a thread spent on each pixel's camera paths, top row first: an even share of what its tile of 16 × 16
     /// pixels took. Unlike all else, no two renders agree on it.
     pub fn pixel_seconds(&self) -> Vec<f32> {
-        let region = self.film.region();
-        let mut seconds = vec![0.0; region.area()];
-        for (tile, total) in region.tiles(TILE_SIDE).into_iter().zip(&self.tile_seconds) {
-            for [x, y] in tile.pixels() {
-                let index = (y - region.y) as usize * region.width as usize + (x - region.x) as usize;
-                seconds[index] = (total / tile.area() as f64) as f32;
-            }
-        }
-        seconds
+        self.pixel_seconds.iter().map(|&seconds| seconds as f32).collect()
     }
 }
 
@@ -200,7 +192,8 @@ pub fn render(world: &World, settings: &Settings, monitor: &dyn Monitor) -> Outc
     }
 }
 
-/// Tiles of 16 × 16 pixels: many enough to balance threads, large enough to keep nearby paths together.
+/// Tiles of 16 × 16 pixels: many enough to balance threads, large enough to keep nearby paths together. They are whole
+/// groups of pixels, wherever those lie in a pass.
 const TILE_SIDE: u32 = 16;
 
 fn run<I: Integrator>(
@@ -212,10 +205,9 @@ fn run<I: Integrator>(
     let start = Instant::now();
     let picture = Region { x: 0, y: 0, width: world.camera.width(), height: world.camera.height() };
     let region = settings.crop.map_or(picture, |crop| crop.clipped(&picture));
-    let tiles = region.tiles(TILE_SIDE);
     let mut film = Film::new(region);
     let mut stats = Stats::default();
-    let mut tile_seconds = vec![0.0; tiles.len()];
+    let mut pixel_seconds = vec![0.0; region.area()];
     let mut stopping = Stopping::new(settings.stop);
     let stopped_by = loop {
         if let Some(reason) = stopping.reason(&film, start.elapsed().as_secs_f64()) {
@@ -237,14 +229,18 @@ fn run<I: Integrator>(
         let camera = Instant::now();
         let may_be_late = pass.index == 0 && !is_late();
         let stops = || monitor.cancelled() || !may_be_late && is_late();
+        let shift = pass.grid_shift(integrator.group_side());
+        let tiles: Vec<_> = region.squares(TILE_SIDE, shift).map(|tile| tile.clipped(&region)).collect();
         let Some(done) = render_tiles(&integrator, world, &tiles, pass, &stops) else {
             break if monitor.cancelled() { StoppedBy::Cancelled } else { StoppedBy::Time };
         };
         stats.camera_seconds += camera.elapsed().as_secs_f64();
 
-        for (tile, total) in done.iter().zip(&mut tile_seconds) {
-            stats.counters += tile.counters;
-            *total += tile.seconds;
+        for Done { tile, counters, seconds } in &done {
+            stats.counters += *counters;
+            let share = seconds / tile.region.area() as f64;
+            let indices = tile.region.pixels().filter_map(|pixel| region.index_of(pixel));
+            indices.for_each(|i| pixel_seconds[i] += share);
         }
         let samples: Vec<Tile> = done.into_iter().map(|done| done.tile).collect();
         film.add_blurred_pass(&samples, integrator.blur());
@@ -255,7 +251,7 @@ fn run<I: Integrator>(
     stats.samples = u64::from(film.passes()) * region.area() as u64;
     stats.bad_samples = film.bad_count();
     stats.seconds = start.elapsed().as_secs_f64();
-    Outcome { error: film.error(), film, stats, stopped_by, tile_seconds }
+    Outcome { error: film.error(), film, stats, stopped_by, pixel_seconds }
 }
 
 /// A tile of a pass, and what it took.
@@ -277,34 +273,54 @@ fn render_tiles<I: Integrator>(
 }
 
 /// One sample for every pixel of a tile.
+///
+/// Groups of pixels are traced whole where they reach beyond it, so that a part of a picture has the bits of the whole.
 fn render_tile<I: Integrator>(integrator: &I, world: &World, region: Region, pass: Pass) -> Done {
     let start = Instant::now();
     let mut counters = Counters::default();
-    let sample = |pixel: [u32; 2]| sample(integrator, world, pixel, pass, &mut counters, &mut ());
-    let samples = region.pixels().map(sample).collect();
+    let mut samples = vec![Rgb::BLACK; region.area()];
+    let side = integrator.group_side();
+    for group in region.squares(side, pass.grid_shift(side)) {
+        for (pixel, sample) in render_group(integrator, world, group, pass, None, &mut counters, &mut ()) {
+            if let Some(index) = region.index_of(pixel) {
+                samples[index] = sample;
+            }
+        }
+    }
     Done { tile: Tile { region, samples }, counters, seconds: start.elapsed().as_secs_f64() }
 }
 
-/// What a pass sees through a pixel; not a number where that is no radiance.
-fn sample<I: Integrator>(
+/// What a pass sees through the pixels of a group for which the lens lets a ray through; not a number where that is no
+/// radiance. How it comes about for one of them is `told` to `witness`.
+fn render_group<I: Integrator>(
     integrator: &I,
     world: &World,
-    pixel: [u32; 2],
+    group: Region,
     pass: Pass,
+    told: Option<[u32; 2]>,
     counters: &mut Counters,
     witness: &mut impl Witness,
-) -> Rgb {
-    if world.is_watched {
-        ledger::begin_path();
+) -> Vec<([u32; 2], Rgb)> {
+    let picture = Region { x: 0, y: 0, width: world.camera.width(), height: world.camera.height() };
+    let (mut pixels, mut cameras) = (Vec::new(), Vec::new());
+    for pixel in group.clipped(&picture).pixels() {
+        let (sampler, ray) = camera_ray(world, pass, pixel);
+        if let Some(CameraRay { ray, weight }) = ray {
+            pixels.push((pixel, weight));
+            cameras.push((ray, sampler));
+        }
     }
-    let (sampler, ray) = camera_ray(world, pass, pixel);
-    let Some(CameraRay { ray, weight }) = ray else { return Rgb::BLACK };
-    let radiance = integrator.radiance(ray, &sampler, counters, witness);
+    let told = told.and_then(|told| pixels.iter().position(|(pixel, _)| *pixel == told));
+    let radiances = integrator.radiances(&cameras, told, counters, witness);
     if world.is_watched {
-        ledger::end_path(number(pixel), radiance);
+        let seen = pixels.iter().zip(&radiances).map(|((pixel, _), radiance)| (number(*pixel), *radiance));
+        ledger::end_paths(&seen.collect::<Vec<_>>());
     }
     // What is no radiance stays none, whatever it weighs: the film counts it.
-    if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
+    let sample = |radiance: Rgb, weight| {
+        if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
+    };
+    pixels.into_iter().zip(radiances).map(|((pixel, weight), seen)| (pixel, sample(seen, weight))).collect()
 }
 
 /// The ray of a pixel in a pass, if its lens lets one through, and the numbers of its path.

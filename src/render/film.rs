@@ -36,16 +36,25 @@ impl Region {
         self.width as usize * self.height as usize
     }
 
-    /// Squares of `side` pixels that cover the region, smaller at its right and lower edges, row by row.
-    pub fn tiles(&self, side: u32) -> Vec<Self> {
-        let mut tiles = Vec::new();
-        for y in (0..self.height).step_by(side as usize) {
-            for x in (0..self.width).step_by(side as usize) {
-                let (width, height) = (side.min(self.width - x), side.min(self.height - y));
-                tiles.push(Self { x: self.x + x, y: self.y + y, width, height });
-            }
-        }
-        tiles
+    /// The squares of `side` pixels that hold a part of the region, from a grid that starts `shift` (each below `side`)
+    /// to the left of the picture and above it; cut off at those edges.
+    pub fn squares(self, side: u32, shift: [u32; 2]) -> impl Iterator<Item = Self> {
+        let cuts = move |start: u32, end: u32, shift: u32| {
+            ((start + shift) / side..(end + shift).div_ceil(side)).map(move |i| {
+                let from = (i * side).saturating_sub(shift);
+                (from, (i + 1) * side - shift - from)
+            })
+        };
+        let columns = move || cuts(self.x, self.x + self.width, shift[0]);
+        cuts(self.y, self.y + self.height, shift[1])
+            .flat_map(move |(y, height)| columns().map(move |(x, width)| Self { x, y, width, height }))
+    }
+
+    /// Where a pixel of the picture stands among those of the region; `None` outside.
+    pub fn index_of(&self, [x, y]: [u32; 2]) -> Option<usize> {
+        let (column, row) = (x.checked_sub(self.x)?, y.checked_sub(self.y)?);
+        (column < self.width && row < self.height)
+            .then(|| row as usize * self.width as usize + column as usize)
     }
 
     /// The pixels, row by row.
@@ -136,7 +145,7 @@ impl Film {
         for tile in tiles {
             for (pixel, &sample) in tile.region.pixels().zip(&tile.samples) {
                 if sample.is_finite() {
-                    let index = self.index(pixel);
+                    let Some(index) = self.region.index_of(pixel) else { continue };
                     let sum = &mut self.streams[stream][index];
                     let sample = sample.to_array().map(f64::from);
                     *sum = [0, 1, 2].map(|channel| sum[channel] + sample[channel]);
@@ -187,10 +196,6 @@ impl Film {
         (self.passes + STREAMS - 1 - stream) / STREAMS
     }
 
-    fn index(&self, [x, y]: [u32; 2]) -> usize {
-        (y - self.region.y) as usize * self.region.width as usize + (x - self.region.x) as usize
-    }
-
     fn note_bad(&mut self, pixel: [u32; 2]) {
         self.bad_count += 1;
         if self.bad_samples.len() < KEPT_BAD_SAMPLES {
@@ -221,7 +226,7 @@ mod tests {
                 let item = u64::from(x) << 32 | u64::from(y);
                 Rgb::gray(-float::ln(1.0 - Sampler::new(seed, pass, item, 0).get_1d(Dim::Filter)))
             };
-            let tiles = REGION.tiles(16).into_iter();
+            let tiles = REGION.squares(16, [0, 0]).map(|square| square.clipped(&REGION));
             let tiles: Vec<Tile> =
                 tiles.map(|region| Tile { region, samples: region.pixels().map(sample).collect() }).collect();
             film.add_pass(&tiles);
@@ -230,10 +235,16 @@ mod tests {
     }
 
     #[test]
-    fn tiles_cover_each_pixel_once() {
-        let mut pixels: Vec<_> = REGION.tiles(16).into_iter().flat_map(Region::pixels).collect();
-        pixels.sort_by_key(|&[x, y]| (y, x));
-        assert!(pixels.into_iter().eq(REGION.pixels()));
+    fn squares_hold_each_pixel_once_wherever_their_grid_lies() {
+        for side in [1, 4, 16] {
+            for shift in [[0, 0], [side / 2, side / 4], [side - 1, side - 1]] {
+                let squares = REGION.squares(side, shift).map(|square| square.clipped(&REGION));
+                let mut indices: Vec<_> =
+                    squares.flat_map(Region::pixels).filter_map(|pixel| REGION.index_of(pixel)).collect();
+                indices.sort_unstable();
+                assert!(indices.into_iter().eq(0..REGION.area()), "{side} {shift:?}");
+            }
+        }
     }
 
     #[test]

@@ -36,7 +36,8 @@ pub struct Ledger {
     /// When its turn began, of paths that are timed.
     since: Option<Instant>,
     is_timed: bool,
-    first: Option<SourceId>,
+    /// How often something was shared.
+    shared: u64,
 }
 
 /// Costs of one of them.
@@ -58,7 +59,8 @@ enum Whose {
     Object(SourceId),
 }
 
-/// A path that ended.
+/// A path from the camera.
+#[derive(Default)]
 struct Sample {
     pixel: u64,
     first: Option<SourceId>,
@@ -90,7 +92,7 @@ pub fn begin_path() {
     write(|ledger| {
         ledger.is_timed = ledger.paths.is_multiple_of(TIMED);
         ledger.paths += 1;
-        ledger.first = None;
+        ledger.samples.push(Sample::default());
         ledger.camera.rays += 1;
         ledger.switch(Some(Whose::Camera));
     });
@@ -102,7 +104,9 @@ pub fn arrive(object: SourceId) {
         if let Some(Whose::Photons) = ledger.whose {
             return;
         }
-        ledger.first.get_or_insert(object);
+        if let Some(sample) = ledger.samples.last_mut() {
+            sample.first.get_or_insert(object);
+        }
         ledger.account(Whose::Object(object)).rays += 1;
         ledger.switch(Some(Whose::Object(object)));
     });
@@ -117,12 +121,23 @@ pub fn look() {
     });
 }
 
-/// A path has ended, for this pixel, with this radiance.
-pub fn end_path(pixel: u64, radiance: Rgb) {
+/// All paths are done, and an object asks for a part of what one of them has found.
+pub fn share(object: SourceId) {
+    write(|ledger| {
+        ledger.is_timed = ledger.shared.is_multiple_of(TIMED);
+        ledger.shared += 1;
+        ledger.switch(Some(Whose::Object(object)));
+    });
+}
+
+/// The last paths have ended: each for a pixel, with its radiance.
+pub fn end_paths(seen: &[(u64, Rgb)]) {
     write(|ledger| {
         ledger.switch(None);
-        let (first, luminance) = (ledger.first, radiance.luminance());
-        ledger.samples.push(Sample { pixel, first, luminance });
+        let first = ledger.samples.len().saturating_sub(seen.len());
+        for (sample, &(pixel, radiance)) in ledger.samples[first..].iter_mut().zip(seen) {
+            (sample.pixel, sample.luminance) = (pixel, radiance.luminance());
+        }
     });
 }
 
@@ -193,7 +208,7 @@ mod tests {
             arrive(SourceId(1));
             look();
             arrive(SourceId(0));
-            end_path(path % 2, Rgb::gray(path as f32));
+            end_paths(&[(path % 2, Rgb::gray(path as f32))]);
         }
         let ledger = close().expect("it was opened here");
         assert_eq!((ledger.objects[1].rays, ledger.objects[0].rays), (4 * TIMED, 2 * TIMED));

@@ -76,6 +76,13 @@ impl World {
         }
     }
 
+    /// A path leaves the camera.
+    pub fn begin_path(&self) {
+        if self.is_watched {
+            ledger::begin_path();
+        }
+    }
+
     /// The nearest surface along a ray; through the holes of masks it goes on.
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         let hit = self.geometry.closest_hit(ray)?;

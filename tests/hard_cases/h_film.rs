@@ -255,7 +255,7 @@ fn hard_case_69_same_scene_same_bits() {
     assert!(film_bits(&whole) == film_bits(&film(2, None)) && film_bits(&whole) == film_bits(&film(3, None)));
     for side in [5, 8, 24] {
         let mut bits = vec![[0; 3]; 24 * 24];
-        for tile in whole.region().tiles(side) {
+        for tile in whole.region().squares(side, [0, 0]) {
             for (pixel, found) in tile.pixels().zip(film_bits(&film(2, Some(tile)))) {
                 bits[(pixel[1] * 24 + pixel[0]) as usize] = found;
             }

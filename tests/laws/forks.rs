@@ -3,37 +3,70 @@
 use super::worlds::{camera, cornell, cuboid, diffuse, empty, gray, quad, sphere};
 use snell::math::{Rgb, Vec2, Vec3};
 use snell::render::bsdf::{Glass, Material};
+use snell::render::film::Region;
 use snell::render::integrator::{Counters, Integrator, Pass, PathTracer};
 use snell::render::sampler::Dim;
 use snell::render::shape::MaterialId;
 use snell::render::{Parts, World};
 
-const SIDE: u32 = 12;
+pub const SIDE: u32 = 12;
 const PASSES: u32 = 40;
 
-/// Mean and variance of the mean of each quarter of a picture, from passes of eight seeds, and the rays that it took.
-fn quarters(tracer: &PathTracer, world: &World) -> ([(f64, f64); 4], u64) {
+/// What passes of eight seeds tell.
+pub struct Found {
+    /// Mean and variance of the mean of each quarter of a picture.
+    pub quarters: [(f64, f64); 4],
+    /// The variance of a pixel, on average.
+    pub noise: f64,
+    /// The rays that it took.
+    pub rays: u64,
+}
+
+/// Traces a small picture.
+pub fn trace(tracer: &PathTracer, world: &World) -> Found {
     const SEEDS: u64 = 8;
+    let picture = Region { x: 0, y: 0, width: SIDE, height: SIDE };
+    let side = tracer.group_side();
     let mut counters = Counters::default();
-    let mut means = [[0.0; SEEDS as usize]; 4];
+    let mut pixels = vec![[0.0; SEEDS as usize]; picture.area()];
     for seed in 0..SEEDS {
         for index in 0..PASSES {
-            for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
-                let sampler = Pass { index, seed }.camera_sampler(u64::from(y) << 32 | u64::from(x));
-                let ray =
-                    world.camera.ray([x, y], sampler.get_2d(Dim::Filter), Vec2::ZERO).expect("no lens").ray;
-                let radiance = tracer.radiance(ray, &sampler, &mut counters, &mut ()).mean();
-                let quarter = usize::from(x >= SIDE / 2) + 2 * usize::from(y >= SIDE / 2);
-                means[quarter][seed as usize] += f64::from(radiance) / f64::from(PASSES * SIDE * SIDE / 4);
+            let pass = Pass { index, seed };
+            for group in picture.squares(side, pass.grid_shift(side)) {
+                let members: Vec<[u32; 2]> = group.clipped(&picture).pixels().collect();
+                let camera = |&[x, y]: &[u32; 2]| {
+                    let sampler = pass.camera_sampler(u64::from(y) << 32 | u64::from(x));
+                    let seen = world.camera.ray([x, y], sampler.get_2d(Dim::Filter), Vec2::ZERO);
+                    (seen.expect("no lens").ray, sampler)
+                };
+                let cameras: Vec<_> = members.iter().map(camera).collect();
+                let radiances = tracer.radiances(&cameras, None, &mut counters, &mut ());
+                for (pixel, radiance) in members.into_iter().zip(radiances) {
+                    let index = picture.index_of(pixel).expect("it lies in the picture");
+                    pixels[index][seed as usize] += f64::from(radiance.mean()) / f64::from(PASSES);
+                }
             }
         }
     }
-    let n = SEEDS as f64;
-    let statistics = means.map(|runs| {
+    let statistics = |runs: [f64; SEEDS as usize]| {
+        let n = SEEDS as f64;
         let mean = runs.iter().sum::<f64>() / n;
-        (mean, runs.iter().map(|run| (run - mean).powi(2)).sum::<f64>() / (n - 1.0) / n)
+        (mean, runs.iter().map(|run| (run - mean).powi(2)).sum::<f64>() / (n - 1.0))
+    };
+    let quarters = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| {
+        let half = SIDE / 2;
+        let quarter = Region { x: x * half, y: y * half, width: half, height: half };
+        let mut runs = [0.0; SEEDS as usize];
+        for index in quarter.pixels().filter_map(|pixel| picture.index_of(pixel)) {
+            for (run, value) in runs.iter_mut().zip(pixels[index]) {
+                *run += value / quarter.area() as f64;
+            }
+        }
+        let (mean, variance) = statistics(runs);
+        (mean, variance / SEEDS as f64)
     });
-    (statistics, counters.rays)
+    let noise = pixels.iter().map(|&runs| statistics(runs).1).sum::<f64>() / picture.area() as f64;
+    Found { quarters, noise, rays: counters.rays }
 }
 
 /// Clear things in the room of Cornell.
@@ -71,13 +104,13 @@ fn forks_change_no_mean_and_take_few_rays_more() {
     const T: f64 = 5.5;
     for (name, parts) in worlds() {
         let world = World::new(parts);
-        let (forked, forked_rays) = quarters(&PathTracer::new(&world, 12), &world);
-        let (single, rays) = quarters(&PathTracer::new(&world, 12).without_forks(), &world);
-        for (quarter, ((a, va), (b, vb))) in forked.into_iter().zip(single).enumerate() {
+        let forked = trace(&PathTracer::new(&world, 12), &world);
+        let single = trace(&PathTracer::new(&world, 12).without_forks(), &world);
+        for (quarter, ((a, va), (b, vb))) in forked.quarters.into_iter().zip(single.quarters).enumerate() {
             let noise = (va + vb).sqrt();
             assert!((a - b).abs() <= T * noise, "{name}, quarter {quarter}: {a} and {b}, noise {noise}");
         }
-        assert!(forked_rays < 8 * rays, "{name}: {forked_rays} rays for {rays}");
+        assert!(forked.rays < 8 * single.rays, "{name}: {} rays for {}", forked.rays, single.rays);
     }
 }
 
@@ -91,8 +124,8 @@ fn glass_in_a_closed_room_leaves_its_radiance_as_it_is() {
     parts.meshes = cuboid(Vec3::splat(-1.0), Vec3::new(1.0, 2.0, 1.0), true, 0);
     parts.solids = vec![sphere(Vec3::new(0.1, 0.0, -0.2), 0.5, 3)];
     let world = World::new(parts);
-    let (found, _) = quarters(&PathTracer::new(&world, 1_000), &world);
-    for (mean, variance) in found {
+    let found = trace(&PathTracer::new(&world, 1_000), &world);
+    for (mean, variance) in found.quarters {
         assert!((mean - 1.0).abs() < 5.5 * variance.sqrt() + 1e-3, "{mean}, noise {}", variance.sqrt());
     }
 }

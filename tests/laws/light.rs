@@ -103,7 +103,8 @@ fn irradiance_from_a_sun_of_one_texel() {
     let sun = Sky::new(sun_map());
     let expected = integrate_sky(&sun, |dir| f64::from(dir.y.max(0.0)));
     parts.environment = Some(sun_map());
-    assert_close(irradiance(parts), expected, 5e-3);
+    // Of 64 passes the standard deviation is 0.45 %.
+    assert_close(PI * mean(&trace(parts, 1_024, 2)), expected, 5e-3);
 }
 
 fn environment(radiance: EnvironmentRadiance, scale: f32, rotation: f32) -> Environment {
@@ -114,6 +115,11 @@ fn image(width: u32, height: u32, texel: impl Fn(u32, u32) -> f32) -> Environmen
     let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let texels = texels.map(|(x, y)| Rgb::gray(texel(x, y))).collect();
     EnvironmentRadiance::Image(Arc::new(Image::new(width, height, texels)))
+}
+
+/// Dim on one side and bright on the other.
+pub fn sky_of_two_halves() -> Environment {
+    environment(image(16, 8, |x, _| if x < 8 { 0.2 } else { 1.5 }), 1.0, 0.3)
 }
 
 /// Black but for one texel high in the sky.

@@ -6,6 +6,7 @@ mod lamps;
 pub mod light;
 mod replay;
 pub mod scattering;
+mod sharing;
 pub mod statistics;
 mod transport;
 pub mod worlds;

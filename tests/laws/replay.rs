@@ -20,13 +20,29 @@ fn methods() -> [Method; 4] {
     ]
 }
 
-/// What an event adds to its pixel.
-fn added(event: &Event) -> Rgb {
+/// What events add to their pixel. What is shared counts once it has been.
+fn added(events: &[Event]) -> Rgb {
+    let (mut sum, mut is_shared) = (Rgb::BLACK, false);
+    for event in events {
+        match event {
+            Event::Sends => is_shared = true,
+            Event::Branch { .. } | Event::Shared { .. } => is_shared = false,
+            _ => {}
+        }
+        if !is_shared {
+            sum += added_by(event);
+        }
+    }
+    sum
+}
+
+fn added_by(event: &Event) -> Rgb {
     match event {
         Event::Emitted { added }
         | Event::Lit { added }
         | Event::Photons { added }
         | Event::Gathered { added }
+        | Event::Shared { added, .. }
         | Event::Sky { added, .. } => *added,
         _ => Rgb::BLACK,
     }
@@ -54,7 +70,7 @@ fn what_events_add_is_the_sample() {
         let mut vertices = 0;
         for pixel in [[1, 6], [2, 5], [5, 5], [6, 6], [4, 1]] {
             for replay in replay(&world, &settings, pixel, 0..4) {
-                let sum = replay.events.iter().map(added).fold(Rgb::BLACK, |sum, added| sum + added);
+                let sum = added(&replay.events);
                 // Up to the order in which a path adds them up.
                 let apart = (sum - replay.sample).map(f32::abs).max_component();
                 let most = 1e-5 * replay.sample.max_component();

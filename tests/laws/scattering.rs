@@ -12,7 +12,7 @@ use snell::render::geometry::{PrimId, SurfacePoint};
 use snell::render::shape::{MaterialId, SourceId};
 
 /// A point on the plane z = 0 with this shading normal.
-fn surface(ns: Vec3) -> SurfacePoint {
+pub fn surface(ns: Vec3) -> SurfacePoint {
     let tangent = (Vec3::X - ns * ns.x).normalize();
     SurfacePoint {
         p: Vec3::ZERO,

@@ -332,6 +332,11 @@ impl Materials {
         Self { effects, ..self }
     }
 
+    /// Whether any material may have holes.
+    pub fn has_masks(&self) -> bool {
+        self.materials.iter().any(|material| matches!(material, Material::Mask { .. }))
+    }
+
     /// Whether a material may have holes.
     pub fn is_mask(&self, id: MaterialId) -> bool {
         matches!(self.get(id), Material::Mask { .. })

@@ -10,6 +10,7 @@ mod dielectric;
 mod dispersion;
 mod fresnel;
 mod ground;
+mod lambertian;
 mod lobe;
 mod material;
 mod mirror;
@@ -23,6 +24,7 @@ pub use conductor::Conductor;
 pub use dielectric::fresnel_dielectric;
 pub use dispersion::Wavelength;
 pub use fresnel::Reflectance;
+pub use lambertian::Lambertian;
 pub use lobe::Lobe;
 pub use material::{
     Emission, Glass, Input, Interior, Material, MaterialId, Materials, Principled, Relief, TextureId,

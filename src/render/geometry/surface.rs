@@ -23,7 +23,12 @@ impl Geometry {
 impl SurfacePoint {
     /// The ray that leaves along `dir`, from an origin that lies beyond the rounding errors of the surface.
     pub fn spawn(&self, dir: Vec3) -> Ray {
-        Ray::new(offset(self.p, self.p_error, self.n, dir), dir)
+        Ray::new(self.origin(dir), dir)
+    }
+
+    /// Where rays start that leave it to the side of `dir`.
+    pub fn origin(&self, dir: Vec3) -> Vec3 {
+        offset(self.p, self.p_error, self.n, dir)
     }
 
     /// The open segment (0, 1) to `target` on a surface with normal `target_n`, both ends moved off their surfaces.
@@ -31,12 +36,21 @@ impl SurfacePoint {
     /// A target that lies on no surface, a point light, has zero error and any normal. Any other is seen from afar as no
     /// better known than the segment is long: its direction is rounded, and so is what the tests make of it.
     pub fn spawn_to(&self, target: Vec3, target_error: Vec3, target_n: Vec3) -> Ray {
-        let o = offset(self.p, self.p_error, self.n, target - self.p);
-        let reach = (target - o).abs().max_element() * float::gamma(8);
-        let target_error = if target_error == Vec3::ZERO { target_error } else { target_error + reach };
-        let end = offset(target, target_error, target_n, o - target);
-        Ray { o, d: end - o, t_max: 1.0 }
+        segment(self.origin(target - self.p), target, target_error, target_n)
     }
+
+    /// Such a segment that ends here, from the [`Self::origin`] of another surface.
+    pub fn seen_from(&self, o: Vec3) -> Ray {
+        segment(o, self.p, self.p_error, self.n)
+    }
+}
+
+/// The open segment (0, 1) from a ray's origin to `target`, as [`SurfacePoint::spawn_to`] says.
+fn segment(o: Vec3, target: Vec3, target_error: Vec3, target_n: Vec3) -> Ray {
+    let reach = (target - o).abs().max_element() * float::gamma(8);
+    let target_error = if target_error == Vec3::ZERO { target_error } else { target_error + reach };
+    let end = offset(target, target_error, target_n, o - target);
+    Ray { o, d: end - o, t_max: 1.0 }
 }
 
 impl AreaSample {

@@ -70,6 +70,10 @@ impl<'a> Classic<'a> {
 }
 
 impl Integrator for Classic<'_> {
+    fn world(&self) -> &World {
+        self.world
+    }
+
     fn begin_pass(&mut self, _: Pass, _: &mut Counters, _: &(dyn Fn() -> bool + Sync)) {}
 
     fn radiance<W: Witness>(

@@ -7,8 +7,9 @@
 //! surfaces are closer than it is wide, paths go on as ever. So the picture converges to the same.
 
 use super::cells::{CellId, Cells, Grid};
-use super::path::{PathTracer, Walk};
+use super::path::{PathTracer, Trace};
 use super::vertex::Vertex;
+use super::walk::Walk;
 use super::{Counters, Integrator, Pass};
 use crate::math::{Rgb, Vec2, Vec3};
 use crate::render::bsdf::{Bsdf, Lobe};
@@ -123,11 +124,11 @@ impl PathTracer<'_> {
         ((most * part).ceil() as u32).clamp(1, MOST_GATHERS)
     }
 
-    /// The radiance that a vertex sends to the viewer, if it is known well enough for one that is `t` metres away.
-    pub(super) fn gathered(&self, walk: &Walk, vertex: &Vertex, t: f32) -> Option<Rgb> {
+    /// The radiance that a vertex sends to the viewer, if it is known well enough from where the path is.
+    pub(super) fn gathered(&self, walk: &Walk, vertex: &Vertex) -> Option<Rgb> {
         let gathering = self.gathering.as_ref().filter(|_| walk.after_wide)?;
         let albedo = vertex.bsdf.matt_albedo()?;
-        if t < NEAR * gathering.grid.side(vertex.surface.p) {
+        if walk.ray.o.distance(vertex.surface.p) < NEAR * gathering.grid.side(vertex.surface.p) {
             return None;
         }
         gathering.cells.mean(&self.cell(&gathering.grid, vertex)).map(|white| albedo * white)
@@ -149,15 +150,14 @@ impl PathTracer<'_> {
         let blurs = self.world.effects.has(Effects::LENS_BLUR);
         let u_lens = if blurs { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
         let Some(camera_ray) = camera.ray(pixel, at.fract(), u_lens) else { return Probe::Nothing };
-        let mut walk = Walk { is_clear: false, ..self.start(camera_ray.ray, sampler) };
+        let mut walk = Walk { is_clear: false, ..Walk::start(self.world, camera_ray.ray, sampler) };
         while walk.depth + 1 < self.max_depth {
             counters.rays += 1;
             let Some(hit) = self.world.closest_hit(&walk.ray) else { break };
             let surface = self.world.interaction(&walk.ray, &hit);
-            let wo = -walk.ray.d;
             walk.pass_through(hit.t, self.world);
-            let bsdf = self.world.bsdf_between(&surface, wo, &walk.media);
-            let vertex = walk.vertex(&surface, &bsdf, wo);
+            let bsdf = self.world.bsdf_between(&surface, walk.wo(), &walk.media);
+            let vertex = walk.vertex(&surface, &bsdf);
             if walk.after_wide && bsdf.matt_albedo().is_some() {
                 let mut white = Bsdf::new(&surface);
                 white.add(Lobe::Lambert { albedo: Rgb::WHITE });
@@ -174,14 +174,15 @@ impl PathTracer<'_> {
     /// The radiance that a vertex sends on, whatever the path did before.
     fn sent_by(&self, mut walk: Walk, vertex: &Vertex, counters: &mut Counters) -> Rgb {
         (walk.beta, walk.eta_scale) = (Rgb::WHITE, 1.0);
-        let mut radiance = self.lit(&walk, vertex, counters, &mut ());
+        let mut trace = Trace { radiance: Rgb::BLACK, waiting: Vec::new(), counters, witness: &mut () };
+        trace.radiance = self.lit(&walk, vertex, &mut trace);
         if self.scatter(&mut walk, vertex, &mut ()).is_some() {
-            radiance += self.follow(walk, &mut Vec::new(), counters, &mut ());
+            self.follow(walk, None, &mut trace);
         }
-        if !radiance.is_valid() {
+        if !trace.radiance.is_valid() {
             counters.bad_light += 1;
             return Rgb::BLACK;
         }
-        radiance
+        trace.radiance
     }
 }

@@ -2,11 +2,14 @@
 
 mod cells;
 mod classic;
+mod direct;
 mod fork;
 mod gather;
 mod path;
 mod ppm;
+mod share;
 mod vertex;
+mod walk;
 mod weight;
 mod witness;
 
@@ -18,11 +21,15 @@ pub use witness::{End, Event, Witness};
 
 use super::film::STREAMS;
 use super::sampler::Sampler;
+use super::world::World;
 use crate::math::{Ray, Rgb};
 use std::ops::AddAssign;
 
 /// A way to find radiance. One value serves a whole render, pass after pass.
 pub trait Integrator: Sync {
+    /// What it looks at.
+    fn world(&self) -> &World;
+
     /// Prepares what all camera rays of a pass share. Once `cancelled`, leaves it unfinished: no ray will ask for it.
     fn begin_pass(&mut self, pass: Pass, counters: &mut Counters, cancelled: &(dyn Fn() -> bool + Sync));
 
@@ -39,6 +46,23 @@ pub trait Integrator: Sync {
         counters: &mut Counters,
         witness: &mut W,
     ) -> Rgb;
+
+    /// The side of the squares of pixels whose camera rays [`Self::radiances`] wants together.
+    fn group_side(&self) -> u32 {
+        1
+    }
+
+    /// The radiances that arrive along the camera rays of such a square, each with the numbers of its path. How that of
+    /// one of them comes about is `told` to `witness`.
+    fn radiances<W: Witness>(
+        &self,
+        cameras: &[(Ray, Sampler)],
+        told: Option<usize>,
+        counters: &mut Counters,
+        witness: &mut W,
+    ) -> Vec<Rgb> {
+        each_alone(self, cameras, told, counters, witness)
+    }
 }
 
 /// One of the passes of a render; all its random numbers follow from it.
@@ -60,6 +84,14 @@ impl Pass {
     pub fn probe_sampler(&self, probe: u32) -> Sampler {
         const PROBE_STREAMS: u32 = 1 << 30; // apart from those of photons and camera paths
         Sampler::new(self.seed, PROBE_STREAMS | self.index, 0, probe)
+    }
+
+    /// By how many pixels the grid of groups of this side, which starts at the top left of the picture, is moved to the left
+    /// and upwards: by others in each stream, so that no pixel is in the same company in all of them.
+    pub fn grid_shift(&self, side: u32) -> [u32; 2] {
+        const QUARTERS: [[u32; 2]; STREAMS as usize] =
+            [[0, 0], [2, 2], [2, 0], [0, 2], [1, 1], [3, 3], [3, 1], [1, 3]];
+        QUARTERS[(self.index % STREAMS) as usize].map(|quarters| quarters * side / 4)
     }
 
     /// The numbers of a photon, counted from 0 in each pass; passes are independent of each other.
@@ -90,4 +122,23 @@ impl AddAssign for Counters {
         self.stored_photons += other.stored_photons;
         self.bad_light += other.bad_light;
     }
+}
+
+/// The radiances of camera rays that have nothing to do with each other.
+fn each_alone<I: Integrator + ?Sized, W: Witness>(
+    integrator: &I,
+    cameras: &[(Ray, Sampler)],
+    told: Option<usize>,
+    counters: &mut Counters,
+    witness: &mut W,
+) -> Vec<Rgb> {
+    let radiance = |(i, (ray, sampler)): (usize, &(Ray, Sampler))| {
+        integrator.world().begin_path();
+        if told == Some(i) {
+            integrator.radiance(*ray, sampler, counters, witness)
+        } else {
+            integrator.radiance(*ray, sampler, counters, &mut ())
+        }
+    };
+    cameras.iter().enumerate().map(radiance).collect()
 }

@@ -8,14 +8,12 @@
 //! sharp reflections, by sampling. Each way of light is thus counted once: what a vertex emits is always added, for no
 //! photon is ever gathered through the lobe that led there.
 
-use super::fork::{self, MOST_WAITING, Way};
-use super::weight::roulette;
+use super::vertex::Vertex;
+use super::walk::Walk;
 use super::{Counters, End, Event, Integrator, Pass, Witness};
 use crate::math::{Ray, Rgb, Vec2};
-use crate::render::bsdf::{Bsdf, BsdfSample, Transport};
+use crate::render::bsdf::{BsdfSample, Transport};
 use crate::render::driver::PpmSettings;
-use crate::render::geometry::SurfacePoint;
-use crate::render::media::Media;
 use crate::render::photon::{Gather, PhotonMap, Schedule, gathers, trace_photons};
 use crate::render::sampler::{Dim, Sampler};
 use crate::render::world::World;
@@ -38,6 +36,10 @@ impl<'a> PhotonMapper<'a> {
 }
 
 impl Integrator for PhotonMapper<'_> {
+    fn world(&self) -> &World {
+        self.world
+    }
+
     fn begin_pass(&mut self, pass: Pass, counters: &mut Counters, cancelled: &(dyn Fn() -> bool + Sync)) {
         self.schedule.radius2(pass.index);
         let count = self.settings.photon_count;
@@ -57,10 +59,8 @@ impl Integrator for PhotonMapper<'_> {
         counters: &mut Counters,
         witness: &mut W,
     ) -> Rgb {
-        let media = Media::start(&self.world.materials, sampler);
-        let (beta, sampler) = (Rgb::WHITE, *sampler);
-        let start = Walk { ray, sampler, depth: 0, beta, eta_scale: 1.0, media, share: 1.0, is_clear: true };
         let mut waiting = Vec::new();
+        let start = Walk::start(self.world, ray, sampler);
         let mut radiance = self.follow(start, &mut waiting, counters, witness);
         while let Some(walk) = waiting.pop() {
             witness.note(|| Event::Branch { depth: walk.depth });
@@ -68,20 +68,6 @@ impl Integrator for PhotonMapper<'_> {
         }
         radiance
     }
-}
-
-/// A camera path under way, as those of a path tracer.
-#[derive(Clone)]
-struct Walk {
-    ray: Ray,
-    sampler: Sampler,
-    depth: u32,
-    beta: Rgb,
-    /// The factor η² that refraction has taken from beta, and will give back.
-    eta_scale: f32,
-    media: Media,
-    share: f32,
-    is_clear: bool,
 }
 
 impl PhotonMapper<'_> {
@@ -104,7 +90,7 @@ impl PhotonMapper<'_> {
             };
             let surface = self.world.interaction(&walk.ray, &hit);
             let wo = -walk.ray.d;
-            walk.beta *= walk.media.transmittance(hit.t, &self.world.materials);
+            walk.pass_through(hit.t, self.world);
             witness.note(|| Event::Vertex { surface, wo, t: hit.t, beta: walk.beta });
 
             // Add light emitted here, then light that photons brought.
@@ -131,12 +117,16 @@ impl PhotonMapper<'_> {
 
             // Follow one sharp reflection onwards, or what is mirrored and what is let through.
             let sharp = bsdf.only(|lobe| !gathers(lobe));
-            let forks = walk.is_clear && waiting.len() < MOST_WAITING;
-            let ended = match sharp.mirrored_share(wo).filter(|_| forks) {
-                Some(mirrored) => self.fork(&mut walk, &surface, &sharp, mirrored, waiting, witness),
+            let vertex = walk.vertex(&surface, &sharp);
+            let mut step = |walk: &mut Walk, u, u_lobe| self.step(walk, &vertex, u, u_lobe, witness);
+            let ended = match sharp.mirrored_share(wo).filter(|_| walk.may_fork(waiting)) {
+                Some(mirrored) => {
+                    walk.fork(mirrored, waiting, |branch, u_lobe| step(branch, Vec2::ZERO, u_lobe))
+                }
                 None => {
-                    let (u, u_lobe) = walk.drawn();
-                    self.step(&mut walk, &surface, &sharp, u, u_lobe, witness)
+                    let u = walk.sampler.get_2d(Dim::Bsdf(walk.depth));
+                    let u_lobe = walk.sampler.get_1d(Dim::Lobe(walk.depth));
+                    step(&mut walk, u, u_lobe)
                 }
             };
             if ended.is_none() {
@@ -146,90 +136,25 @@ impl PhotonMapper<'_> {
         radiance
     }
 
-    /// Moves a path on both ways from a clear surface that mirrors a part of the light, or on one of them.
-    fn fork(
-        &self,
-        walk: &mut Walk,
-        surface: &SurfacePoint,
-        sharp: &Bsdf,
-        mirrored: f32,
-        waiting: &mut Vec<Walk>,
-        witness: &mut impl Witness,
-    ) -> Option<()> {
-        let (_, u) = walk.drawn();
-        let [mirrored, through] = fork::ways(mirrored, walk.share, u);
-        let mut take = |Way { u_lobe, factor }: Way, sampler| {
-            let (beta, share) = (walk.beta * factor, walk.share * factor);
-            let mut branch = Walk { sampler, beta, share, ..walk.clone() };
-            self.step(&mut branch, surface, sharp, Vec2::ZERO, u_lobe, witness).map(|()| branch)
-        };
-        let beside = if through.is_some() { walk.sampler.branch(walk.depth) } else { walk.sampler };
-        let mirrored = mirrored.and_then(|way| take(way, beside));
-        match through.and_then(|way| take(way, walk.sampler)) {
-            Some(through) => {
-                waiting.extend(mirrored);
-                *walk = through;
-            }
-            None => *walk = mirrored?,
-        }
-        Some(())
-    }
-
     /// Moves a path on in the direction that two numbers draw; `None` if it ends.
     fn step(
         &self,
         walk: &mut Walk,
-        surface: &SurfacePoint,
-        sharp: &Bsdf,
+        vertex: &Vertex,
         u: Vec2,
         u_lobe: f32,
         witness: &mut impl Witness,
     ) -> Option<()> {
-        let wo = -walk.ray.d;
-        let Some(next) = sharp.sample(wo, u, u_lobe, Transport::Radiance) else {
+        let Vertex { surface, bsdf, wo, .. } = *vertex;
+        let Some(next) = bsdf.sample(wo, u, u_lobe, Transport::Radiance) else {
             witness.note(|| Event::Ended(End::Absorbed));
             return None;
         };
         witness.note(|| {
             let BsdfSample { wi, weight, pdf, through, .. } = next;
-            Event::Scattered { lobe: sharp.lobe_chosen(wo, u_lobe), wi, weight, pdf, through }
+            Event::Scattered { lobe: bsdf.lobe_chosen(wo, u_lobe), wi, weight, pdf, through }
         });
-        walk.beta *= next.weight;
-        walk.eta_scale *= next.eta * next.eta;
-        walk.is_clear &= next.specular;
-        walk.ray = surface.spawn(next.wi);
-        if next.through {
-            let inwards = next.wi.dot(surface.n) < 0.0;
-            walk.beta *= walk.media.pass(surface.material, inwards, &self.world.materials);
-        }
-
-        // End dim paths early; the survivors carry their weight.
-        let worth = walk.beta.max_component() * walk.eta_scale;
-        let u = || walk.sampler.get_1d(Dim::Roulette(walk.depth));
-        let Some(survival) = roulette(worth, walk.depth, next.specular, u) else {
-            witness.note(|| Event::Ended(End::Roulette));
-            return None;
-        };
-        walk.beta /= survival;
-        walk.depth += 1;
-        Some(())
-    }
-}
-
-impl Walk {
-    /// The numbers that draw a direction.
-    fn drawn(&self) -> (Vec2, f32) {
-        (self.sampler.get_2d(Dim::Bsdf(self.depth)), self.sampler.get_1d(Dim::Lobe(self.depth)))
-    }
-
-    /// Whether it is to be lit where photons are gathered: a small branch by chance, which it then makes up.
-    fn is_lit(&mut self) -> bool {
-        let chance = fork::lit_chance(self.share);
-        if !self.is_clear || chance == 1.0 {
-            return true;
-        }
-        self.beta /= chance;
-        self.share /= chance;
-        self.sampler.get_1d(Dim::Lit(self.depth)) < chance
+        walk.leave(surface, &next, self.world);
+        walk.survive(next.specular, witness)
     }
 }

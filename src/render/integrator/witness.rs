@@ -77,6 +77,16 @@ pub enum Event {
         /// What of it counts.
         added: Rgb,
     },
+    /// What was met, or the sky if it was nothing, is shared with neighbouring pixels: until the next [`Self::Branch`] or
+    /// [`Self::Shared`], throughputs and what is added count from here, not from the camera.
+    Sends,
+    /// What the pixel gets of what the paths of its group have found to share.
+    Shared {
+        /// How many paths these are.
+        paths: usize,
+        /// What of it counts.
+        added: Rgb,
+    },
     /// The path goes on.
     Scattered {
         /// By which lobe.
