@@ -5,7 +5,9 @@ use snell::math::{Rgb, Vec3};
 use snell::output::Picture;
 use snell::render::film::Film;
 use snell::render::light::{Environment, EnvironmentRadiance};
-use snell::render::{Method, Monitor, Outcome, Parts, Progress, Settings, Stop, StoppedBy, World, render};
+use snell::render::{
+    Method, Monitor, Outcome, Parts, Progress, Sampling, Settings, Stop, StoppedBy, World, render,
+};
 use snell::study::metrics::{Relative, mean};
 use std::path::Path;
 use std::process::{Command, Output};
@@ -34,7 +36,11 @@ fn scenes(side: u32) -> [(&'static str, World); 4] {
 }
 
 fn rendered(world: &World, seed: u64, stop: Stop) -> Outcome {
-    render(world, &Settings { method: Method::Pt, max_depth: 8, seed, stop, crop: None }, &())
+    render(
+        world,
+        &Settings { method: Method::Pt, max_depth: 8, seed, stop, crop: None, sampling: Sampling::Sobol },
+        &(),
+    )
 }
 
 fn after(passes: u32) -> Stop {
@@ -118,7 +124,8 @@ fn looking_at_the_error_does_not_change_the_picture() {
     let [(_, world), ..] = scenes(16);
     let blind = rendered(&world, 3, after(20));
     let stop = Stop { error: Some(1e-9), ..after(20) };
-    let settings = Settings { method: Method::Pt, max_depth: 8, seed: 3, stop, crop: None };
+    let settings =
+        Settings { method: Method::Pt, max_depth: 8, seed: 3, stop, crop: None, sampling: Sampling::Sobol };
     let curious = render(&world, &settings, &Curious);
     assert_eq!(blind.film.mean(), curious.film.mean());
     assert_eq!(blind.error, curious.error);
@@ -185,7 +192,8 @@ render { method: classic { pixel: center } }
     std::fs::write(folder.path().join("a.ppm"), b"P6\n1 1\n255\nabc").expect("written");
     for (args, words) in [
         (vec!["s.snell", "--sweep", "methd=pt"], "did you mean `method`?"),
-        (vec!["s.snell", "--sweep", "tolerance=1mm"], "cannot be varied yet"),
+        (vec!["s.snell", "--sweep", "precision=f32"], "docs/hard-cases.md"),
+        (vec!["s.snell", "--sweep", "tolerance=1mm"], "the scene has none"),
         (vec!["s.snell", "-o", "a.pdf"], "a report is a page"),
         (vec!["s.snell", "--against", "a.ppm"], "holds display values"),
         (vec!["s.snell", "--against", "b.exr"], "cannot be read"),

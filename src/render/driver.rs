@@ -14,7 +14,7 @@ use super::integrator::{
     Classic, ClassicSettings, Counters, Integrator, Pass, PathTracer, PhotonMapper, Witness,
 };
 use super::ledger;
-use super::sampler::{Dim, Sampler};
+use super::sampler::{Dim, Sampler, Sampling};
 use super::world::World;
 use crate::math::{Rgb, Vec2};
 pub use layers::{Layers, layers};
@@ -92,6 +92,8 @@ pub struct Settings {
     pub max_depth: u32,
     /// Another seed, other noise.
     pub seed: u64,
+    /// How samples are spread.
+    pub sampling: Sampling,
     /// When to stop.
     pub stop: Stop,
     /// The part of the picture to render; all of it by default.
@@ -221,7 +223,7 @@ fn run<I: Integrator>(
         if let Some(reason) = stopping.reason(&film, start.elapsed().as_secs_f64()) {
             break reason;
         }
-        let pass = Pass { index: film.passes(), seed: settings.seed };
+        let pass = Pass { index: film.passes(), seed: settings.seed, sampling: settings.sampling };
 
         let prepare = Instant::now();
         let is_late = || stopping.is_overdue(start.elapsed().as_secs_f64());

@@ -1,7 +1,7 @@
 //! What the runs of one variant say together: error against time, its slope, its blur.
 
 use super::clock::Seconds;
-use super::experiment::{Point, Run};
+use super::experiment::{Point, Reference, Run};
 use super::record::Record;
 use super::statistics::{bootstrap, line_through, median, quantile};
 use super::{Relative, metrics};
@@ -87,6 +87,8 @@ impl Step {
 pub struct Curve {
     /// What was varied, such as `pt` or `ppm k=60`.
     pub name: String,
+    /// Whether it gathers photons, whose discs blur.
+    pub has_photons: bool,
     /// Runs.
     pub run_count: usize,
     /// After 1, 2, 4, … passes.
@@ -134,8 +136,15 @@ const FARTHEST: f64 = 1e4;
 const FIRST_PASSES_OF_SLOPE: u32 = 4;
 
 impl Curve {
-    /// The curve of what was recorded. `noise` is relMSE of the reference's own noise, 0 where it is unknown.
-    pub fn new(name: String, record: &Record, reference: &Picture, noise: f64, time: TimeOf) -> Self {
+    /// The curve of what was recorded against a reference.
+    pub fn new(
+        name: String,
+        has_photons: bool,
+        record: &Record,
+        reference: &Reference,
+        time: TimeOf,
+    ) -> Self {
+        let (reference, noise) = (&reference.picture, reference.noise.unwrap_or(0.0));
         let runs = &record.runs;
         let count = runs.iter().map(|run| run.points.len()).min().unwrap_or(0);
         let mut steps: Vec<Step> =
@@ -145,7 +154,7 @@ impl Curve {
         steps.truncate(judged.max(1));
         let slope = slope(runs, &steps, noise);
         let honesty = honesty(runs, noise);
-        Self { name, run_count: runs.len(), steps, slope, honesty }
+        Self { name, has_photons, run_count: runs.len(), steps, slope, honesty }
     }
 
     /// The last step.
@@ -292,9 +301,17 @@ pub(super) mod tests {
     use crate::math::Rgb;
     use crate::study::Metrics;
 
-    fn white() -> Picture {
+    fn white() -> Reference {
         let radiance = vec![Rgb::WHITE; 4];
-        Picture { width: 2, height: 2, radiance, standard_error: None, is_display: false, facts: Vec::new() }
+        let picture = Picture {
+            width: 2,
+            height: 2,
+            radiance,
+            standard_error: None,
+            is_display: false,
+            facts: Vec::new(),
+        };
+        Reference { picture, noise: None, factor: 1.0 }
     }
 
     /// Eight runs whose relMSE is `of(passes)` up to a little noise, `rate` seconds a pass.
@@ -313,7 +330,7 @@ pub(super) mod tests {
             Run { seed, points: points.collect() }
         };
         let record = Record { runs: (1..=8).map(run).collect(), means: vec![vec![Rgb::WHITE; 4]; 9] };
-        Curve::new(name.to_owned(), &record, &white(), 0.0, TimeOf::Wall)
+        Curve::new(name.to_owned(), name == "ppm", &record, &white(), TimeOf::Wall)
     }
 
     #[test]
@@ -353,7 +370,7 @@ pub(super) mod tests {
         };
         let runs = [1.3, 0.9].map(|x| Run { seed: 1, points: vec![point(x)] }).to_vec();
         let record = Record { runs, means: vec![vec![Rgb::gray(1.1); 4]] };
-        let curve = Curve::new("ppm".to_owned(), &record, &white(), 0.0, TimeOf::Wall);
+        let curve = Curve::new("ppm".to_owned(), true, &record, &white(), TimeOf::Wall);
         // (2 · 0.1² − mean(0.3², 0.1²)) / 1: with two runs the estimate is rough, here even negative.
         let expected = (2.0 * 0.01 - 0.05) / 1.01;
         assert!((curve.steps[0].bias - expected).abs() < 1e-6);

@@ -4,7 +4,7 @@ use super::worlds::{camera, cornell, cuboid, diffuse, empty, gray, quad, sphere}
 use snell::math::{Rgb, Vec2, Vec3};
 use snell::render::bsdf::{Glass, Material};
 use snell::render::integrator::{Counters, Integrator, Pass, PathTracer};
-use snell::render::sampler::Dim;
+use snell::render::sampler::{Dim, Sampling};
 use snell::render::shape::MaterialId;
 use snell::render::{Parts, World};
 
@@ -19,7 +19,8 @@ fn quarters(tracer: &PathTracer, world: &World) -> ([(f64, f64); 4], u64) {
     for seed in 0..SEEDS {
         for index in 0..PASSES {
             for (x, y) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))) {
-                let sampler = Pass { index, seed }.camera_sampler(u64::from(y) << 32 | u64::from(x));
+                let sampler = Pass { index, seed, sampling: Sampling::Sobol }
+                    .camera_sampler(u64::from(y) << 32 | u64::from(x));
                 let ray =
                     world.camera.ray([x, y], sampler.get_2d(Dim::Filter), Vec2::ZERO).expect("no lens").ray;
                 let radiance = tracer.radiance(ray, &sampler, &mut counters, &mut ()).mean();

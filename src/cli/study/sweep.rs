@@ -1,9 +1,11 @@
 //! `--sweep KEY=VALUES` of `study`: what is varied, and the variants that come of it.
 
-use super::args::Method;
+use crate::check::WIDEST_FILTER;
+use crate::cli::args::Method;
 use crate::diag::did_you_mean;
 use crate::ir;
-use crate::plan::Plan;
+use crate::plan::{Plan, Tessellation};
+use crate::render::Sampling;
 use clap::ValueEnum;
 
 /// One key with its values.
@@ -23,6 +25,9 @@ enum Key {
     Radius,
     Shrink,
     Depth,
+    Sampler,
+    Filter,
+    Tolerance,
     Passes,
 }
 
@@ -35,22 +40,31 @@ enum Setting {
     Radius(f64),
     Shrink(f64),
     Depth(u32),
+    Sampler(Sampling),
+    Filter(ir::Filter),
+    Tolerance(Tessellation),
     Passes(u32),
 }
 
-const KEYS: [(&str, Key); 8] = [
+const KEYS: [(&str, Key); 11] = [
     ("method", Key::Method),
     ("photons", Key::Photons),
     ("k", Key::K),
     ("radius", Key::Radius),
     ("shrink", Key::Shrink),
     ("depth", Key::Depth),
+    ("sampler", Key::Sampler),
+    ("filter", Key::Filter),
+    ("tolerance", Key::Tolerance),
     ("passes", Key::Passes),
     ("spp", Key::Passes),
 ];
 
-/// What will be possible to vary, but is not yet.
-const NOT_YET: [&str; 5] = ["tolerance", "filter", "precision", "watertight", "sampler"];
+/// What has a price, but only one form in the program.
+const ALWAYS: [(&str, &str); 2] = [
+    ("precision", "what must be in double precision always is"),
+    ("watertight", "every triangle test is watertight"),
+];
 
 /// Reads `KEY=VALUE,VALUE…`.
 ///
@@ -69,8 +83,11 @@ pub fn parse(text: &str) -> Result<Sweep, String> {
 
 fn unknown(name: &str) -> String {
     let names = KEYS.map(|(name, _)| name);
-    if NOT_YET.contains(&name) {
-        return format!("`{name}` cannot be varied yet; what can is {}", names.join(", "));
+    if let Some((_, why)) = ALWAYS.iter().find(|(known, _)| *known == name) {
+        return format!(
+            "`{name}` cannot be varied: {why}, and docs/hard-cases.md has what that costs; what can be varied is {}",
+            names.join(", ")
+        );
     }
     did_you_mean(name, names).unwrap_or_else(|| format!("what can be varied is {}", names.join(", ")))
 }
@@ -88,6 +105,10 @@ impl Key {
             Self::K => Setting::K(count(2)?),
             Self::Depth => Setting::Depth(count(1)?.min(65_535)),
             Self::Passes => Setting::Passes(count(1)?),
+            Self::Sampler => Setting::Sampler(word(value, "sampler", &SAMPLERS)?),
+            Self::Filter => Setting::Filter(filter(value)?),
+            Self::Tolerance if value == "exact" => Setting::Tolerance(Tessellation::Exact),
+            Self::Tolerance => Setting::Tolerance(Tessellation::Within(length(value)?)),
             Self::Radius => Setting::Radius(length(value)?),
             Self::Shrink => {
                 let share = value.parse().ok().filter(|x: &f64| 0.0 < *x && *x < 1.0);
@@ -105,6 +126,42 @@ fn method(value: &str) -> Result<Method, String> {
     Method::from_str(value, true).map_err(|_| {
         let near = did_you_mean(value, names.iter().map(String::as_str));
         format!("no method is called `{value}`: {}", near.unwrap_or_else(|| names.join(", ")))
+    })
+}
+
+const SAMPLERS: [(&str, Sampling); 2] = [("sobol", Sampling::Sobol), ("independent", Sampling::Independent)];
+
+/// Pixel filters, as wide as the language's examples make them.
+const FILTERS: [(&str, ir::Filter); 5] = [
+    ("box", ir::Filter::Box(0.5)),
+    ("tent", ir::Filter::Tent(1.0)),
+    ("gaussian", ir::Filter::Gaussian(1.5)),
+    ("mitchell", ir::Filter::Mitchell(2.0)),
+    ("blackman_harris", ir::Filter::BlackmanHarris(2.0)),
+];
+
+/// `tent` or `tent(2px)`.
+fn filter(value: &str) -> Result<ir::Filter, String> {
+    let (name, radius) = match value.strip_suffix(')').and_then(|value| value.split_once('(')) {
+        None => (value, None),
+        Some((name, radius)) => {
+            let pixels =
+                radius.trim().strip_suffix("px").and_then(|number| number.trim().parse::<f64>().ok());
+            let pixels = pixels.filter(|pixels| *pixels > 0.0 && *pixels <= WIDEST_FILTER);
+            (name.trim(), Some(pixels.ok_or_else(|| format!("`{radius}` is no radius such as `1px`"))?))
+        }
+    };
+    let filter = word(name, "filter", &FILTERS)?;
+    Ok(radius.map_or(filter, |radius| filter.with_radius(radius)))
+}
+
+/// What one of a few words stands for.
+fn word<T: Copy>(value: &str, kind: &str, words: &[(&str, T)]) -> Result<T, String> {
+    let known = words.iter().find(|(known, _)| *known == value);
+    known.map(|(_, meaning)| *meaning).ok_or_else(|| {
+        let names: Vec<&str> = words.iter().map(|(name, _)| *name).collect();
+        let near = did_you_mean(value, names.iter().copied());
+        format!("no {kind} is called `{value}`: {}", near.unwrap_or_else(|| names.join(", ")))
     })
 }
 
@@ -137,7 +194,8 @@ impl Variant {
     pub fn apply(&self, plan: &mut Plan) {
         for setting in &self.settings {
             match *setting {
-                Setting::Method(_) | Setting::Passes(_) => {}
+                Setting::Method(_) | Setting::Passes(_) | Setting::Sampler(_) | Setting::Filter(_) => {}
+                Setting::Tolerance(tessellation) => plan.tessellation = tessellation,
                 Setting::Photons(count) => plan.photon_count = count,
                 Setting::K(k) => plan.photon_k = k,
                 Setting::Radius(radius) => plan.photon_radius = Some(radius),
@@ -147,15 +205,52 @@ impl Variant {
         }
     }
 
+    /// How its samples are spread.
+    pub fn sampling(&self) -> Sampling {
+        let sampling = self.settings.iter().find_map(|setting| match setting {
+            Setting::Sampler(sampling) => Some(*sampling),
+            _ => None,
+        });
+        sampling.unwrap_or_default()
+    }
+
+    /// The camera with this variant's filter.
+    pub fn seen_through(&self, camera: &ir::Camera) -> ir::Camera {
+        let mut camera = camera.clone();
+        for setting in &self.settings {
+            if let Setting::Filter(filter) = *setting {
+                camera.film.filter.value = filter;
+            }
+        }
+        camera
+    }
+
+    /// What makes the reference that judges it: a picture by the same filter, for a filter says what the picture is to be,
+    /// and of shapes as exact as they can be. All else is the scene's own.
+    pub fn judge(&self) -> Self {
+        let settings = self.settings.iter().filter_map(|setting| match setting {
+            Setting::Filter(_) => Some(*setting),
+            Setting::Tolerance(_) => Some(Setting::Tolerance(Tessellation::Exact)),
+            _ => None,
+        });
+        Self { settings: settings.collect() }
+    }
+
     /// What it is called in tables, under a method: `ppm k=60`. What the method has no use for is left out.
     pub fn name(&self, method: ir::Method) -> String {
-        let has_photons = !matches!(method, ir::Method::Pt | ir::Method::Classic);
+        let has_photons = has_photons(method);
         let words = self.settings.iter().filter_map(|setting| match *setting {
             Setting::Photons(count) if has_photons => Some(format!("photons={count}")),
             Setting::K(k) if has_photons => Some(format!("k={k}")),
             Setting::Radius(radius) if has_photons => Some(format!("radius={}", length_text(radius))),
             Setting::Shrink(shrink) if has_photons => Some(format!("shrink={shrink}")),
             Setting::Depth(depth) => Some(format!("depth={depth}")),
+            Setting::Sampler(sampling) => Some(format!("sampler={}", name_of(sampling, &SAMPLERS)?)),
+            Setting::Filter(filter) => Some(format!("filter={}", filter_text(filter)?)),
+            Setting::Tolerance(Tessellation::Within(tolerance)) => {
+                Some(format!("tolerance={}", length_text(tolerance)))
+            }
+            Setting::Tolerance(_) => Some("tolerance=exact".to_owned()),
             _ => None,
         });
         let name = method_name(method);
@@ -166,6 +261,25 @@ impl Variant {
 /// The name of a method, as it is asked for.
 pub fn method_name(method: ir::Method) -> String {
     format!("{method:?}").to_lowercase()
+}
+
+/// Whether a method gathers photons.
+pub fn has_photons(method: ir::Method) -> bool {
+    !matches!(method, ir::Method::Pt | ir::Method::Classic)
+}
+
+fn name_of<T: PartialEq>(value: T, words: &[(&'static str, T)]) -> Option<&'static str> {
+    words.iter().find(|(_, known)| *known == value).map(|(name, _)| *name)
+}
+
+/// As it is written; a usual radius is left out.
+fn filter_text(filter: ir::Filter) -> Option<String> {
+    let usual = name_of(filter, &FILTERS).map(str::to_owned);
+    usual.or_else(|| {
+        let same = |known: ir::Filter| known.with_radius(filter.radius()) == filter;
+        let (name, _) = FILTERS.iter().find(|(_, known)| same(*known))?;
+        Some(format!("{name}({}px)", filter.radius()))
+    })
 }
 
 fn length_text(metres: f64) -> String {
@@ -190,6 +304,11 @@ pub fn variants(sweeps: &[Sweep]) -> Vec<Variant> {
             .collect();
     }
     out
+}
+
+/// Whether the shapes that triangles stand for are varied.
+pub fn varies_tolerance(sweeps: &[Sweep]) -> bool {
+    sweeps.iter().any(|sweep| sweep.key == Key::Tolerance)
 }
 
 /// The most passes that are asked for: all doublings up to there are measured anyway.
@@ -218,12 +337,28 @@ mod tests {
     }
 
     #[test]
+    fn a_reference_has_the_filter_of_its_variants_and_exact_shapes() {
+        let sweeps = ["filter=box,tent(2px)", "tolerance=exact,1mm", "sampler=sobol,independent"];
+        let all = variants(&sweeps.map(|text| parse(text).unwrap()));
+        assert_eq!(all.len(), 8);
+        let judges: Vec<String> = all.iter().map(|variant| variant.judge().name(ir::Method::Pt)).collect();
+        assert_eq!(judges[0], "pt filter=box tolerance=exact");
+        assert!(judges[..4].iter().all(|judge| *judge == judges[0]), "{judges:?}");
+        assert_eq!(all[7].name(ir::Method::Pt), "pt filter=tent(2px) tolerance=1mm sampler=independent");
+        assert_eq!((all[0].sampling(), all[1].sampling()), (Sampling::Sobol, Sampling::Independent));
+    }
+
+    #[test]
     fn values_have_units_and_limits() {
         assert_eq!(parse("radius=5cm").unwrap().values, [Setting::Radius(0.05)]);
         assert_eq!(parse("photons=1e5,200_000").unwrap().values.len(), 2);
         for (text, words) in [
             ("methd=pt", "did you mean `method`?"),
-            ("tolerance=1mm", "cannot be varied yet"),
+            ("watertight=on", "docs/hard-cases.md"),
+            ("sampler=sobl", "did you mean `sobol`?"),
+            ("filter=tent(1)", "such as `1px`"),
+            ("filter=hat", "box, tent, gaussian"),
+            ("tolerance=fine", "such as `5cm`"),
             ("method=ptt", "did you mean `pt`?"),
             ("k=1", "from 2 on"),
             ("radius=5", "such as `5cm`"),
