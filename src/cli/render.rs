@@ -72,7 +72,7 @@ pub struct RenderArgs {
     /// The seed of all random numbers
     #[arg(long, value_name = "N", value_parser = args::seed, allow_hyphen_values = true)]
     pub(super) seed: Option<u64>,
-    /// What an .exr holds beside colour, its standard error and the number of samples; may be repeated, `all` or `none`
+    /// What an .exr holds beside colour, its standard errors and the number of samples; may be repeated, `all` or `none`
     /// [default: albedo,normal,depth]
     #[arg(long, value_name = "LAYER", value_delimiter = ',')]
     layers: Vec<layers::Choice>,

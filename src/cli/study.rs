@@ -4,6 +4,7 @@ mod measure;
 mod prepare;
 mod sweep;
 mod truth;
+mod variant;
 
 use super::args::{self, MessageArgs, Method, SceneArgs};
 use super::session::{self, Session};

@@ -6,10 +6,13 @@
 
 mod blur;
 mod error;
+mod margin;
+mod tile;
 
 use crate::math::Rgb;
 use blur::Blur;
 pub use error::ErrorEstimate;
+pub use tile::ERROR_TILE;
 
 /// The number of independent streams.
 pub const STREAMS: u32 = 8;
@@ -200,7 +203,7 @@ impl Film {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::math::float;
     use crate::render::sampler::{Dim, Sampler};
@@ -213,7 +216,7 @@ mod tests {
     }
 
     /// The same; if `shared`, each square of 5 × 5 pixels has one sample for all, as photons are.
-    fn noisy(seed: u64, passes: u32, shared: bool) -> Film {
+    pub fn noisy(seed: u64, passes: u32, shared: bool) -> Film {
         let mut film = Film::new(REGION);
         for pass in 0..passes {
             let sample = |[x, y]: [u32; 2]| {

@@ -308,6 +308,7 @@ pub(super) mod tests {
             height: 2,
             radiance,
             standard_error: None,
+            tile_error: None,
             is_display: false,
             facts: Vec::new(),
         };

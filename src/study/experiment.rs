@@ -94,6 +94,7 @@ pub fn frame_like(picture: &Picture) -> Picture {
         height: picture.height,
         radiance: Vec::new(),
         standard_error: None,
+        tile_error: None,
         is_display: false,
         facts: Vec::new(),
     }

@@ -50,7 +50,10 @@ pub fn write(targets: &mut [Target], args: &RenderArgs, rendered: &Rendered) -> 
     let mut facts = rendered.summary().facts();
     facts.extend(display.facts());
     let wanted = if holds_layers(targets) { layers::chosen(&args.layers) } else { Vec::new() };
-    let planes = layers::planes(&wanted, &ready.lowered.world, ready.settings.seed, outcome);
+    let mut planes = layers::planes(&wanted, &ready.lowered.world, ready.settings.seed, outcome);
+    if holds_layers(targets) {
+        planes.extend(layers::errors(&outcome.film));
+    }
     let region = outcome.film.region();
     let variance = outcome.film.variance().unwrap_or_default();
     let frame = Frame {

@@ -1,7 +1,8 @@
 //! Every variant of a study ready for rays, and what makes its references.
 
 use super::StudyArgs;
-use super::sweep::{self, Variant};
+use super::sweep;
+use super::variant::{self, Variant};
 use crate::cli::Exit;
 use crate::cli::args::Method;
 use crate::cli::fail;
@@ -139,7 +140,7 @@ impl Ready {
 
     /// Whether photons are gathered, whose discs blur.
     pub fn has_photons(&self) -> bool {
-        sweep::has_photons(self.plan.method)
+        variant::has_photons(self.plan.method)
     }
 
     /// What its measurements are kept under: other settings, another name.

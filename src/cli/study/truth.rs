@@ -142,6 +142,7 @@ fn long_render(ready: &Ready, stop: Stop) -> Result<Picture, Exit> {
         height: region.height,
         radiance: outcome.film.mean(),
         standard_error: variance.map(|variance| variance.iter().map(|v| v.map(f32::sqrt)).collect()),
+        tile_error: None,
         is_display: false,
         facts: facts.map(|(name, value)| (name.to_owned(), value.to_string())).to_vec(),
     })
