@@ -70,8 +70,8 @@ pub struct Step {
     pub ssim: Spread,
     /// The part of relMSE that no run is free of, the square of the blur; noise may make it negative.
     pub bias: f64,
-    /// Whether that part is blur beyond doubt: at least a twentieth of the noise, which chance alone hardly makes of eight
-    /// runs and a thousand pixels, and more than the noise of the reference, which all runs share.
+    /// Whether that part is there beyond doubt: at least a twentieth of the noise, three times what chance makes of so many
+    /// runs that differ as these do, and more than the noise of the reference, which all runs share.
     pub is_biased: bool,
 }
 
@@ -247,6 +247,10 @@ fn step(
     let of_mean = without_noise(metrics::mean(&squares), noise);
     let n = runs.len() as f64;
     let bias = if runs.len() > 1 { (n * of_mean - rel_mse.mean) / (n - 1.0) } else { 0.0 };
+    // Errors of runs that differ by the share s are those of 2/s² independent pixels; the bias is a mean over n (n − 1) / 2
+    // pairs of runs of a product that has their noise.
+    let spread = runs.iter().map(|run| (run.points[i].metrics.rel_mse - noise - rel_mse.mean).powi(2));
+    let chance = (spread.sum::<f64>() / (n * (n - 1.0).max(1.0).powi(2))).sqrt();
     Step {
         passes: runs[0].points[i].passes,
         seconds: median(&runs.iter().map(|run| time.pick(run.points[i].seconds)).collect::<Vec<_>>())
@@ -257,7 +261,7 @@ fn step(
         flip: of(&|point| point.metrics.flip),
         ssim: of(&|point| point.metrics.ssim),
         bias,
-        is_biased: bias > (0.05 * (rel_mse.mean - bias)).max(noise).max(0.0),
+        is_biased: bias > (0.05 * (rel_mse.mean - bias)).max(3.0 * chance).max(noise).max(0.0),
     }
 }
 
