@@ -14,7 +14,7 @@
 use snell::diag::Problems;
 use snell::math::Rgb;
 use snell::plan::Plan;
-use snell::render::{Outcome, Settings, Stop};
+use snell::render::{Outcome, Sampling, Settings, Stop};
 use snell::source::{Disk, SourceMap};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -185,7 +185,14 @@ fn render(file: &Path, passes: u32, seed: u64, method: &str) -> Result<(Outcome,
         snell::lower::lower(&loaded, &plan, camera, &files, &mut problems).ok_or("a picture is broken")?;
     drop(loaded);
     let stop = Stop { passes: Some(passes), ..Stop::default() };
-    let settings = Settings { method: lowered.method, max_depth: plan.depth, seed, stop, crop: None };
+    let settings = Settings {
+        method: lowered.method,
+        max_depth: plan.depth,
+        seed,
+        stop,
+        crop: None,
+        sampling: Sampling::Sobol,
+    };
     let start = cpu_seconds();
     let outcome = snell::render::render(&lowered.world, &settings, &());
     Ok((outcome, cpu_seconds() - start))

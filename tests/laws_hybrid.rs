@@ -13,8 +13,8 @@ use snell::render::sampler::Dim;
 use snell::render::shape::{MaterialId, Solid, SolidKind};
 use snell::render::texture::Image;
 use snell::render::{
-    GatherRadius, HybridSettings, Method, Monitor, Parts, PpmSettings, Progress, Settings, Stop, StoppedBy,
-    World, render,
+    GatherRadius, HybridSettings, Method, Monitor, Parts, PpmSettings, Progress, Sampling, Settings, Stop,
+    StoppedBy, World, render,
 };
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -29,7 +29,7 @@ fn hybrid(photon_count: u32, radius: f32) -> Method {
 
 fn settings(method: Method, passes: u32, seed: u64) -> Settings {
     let stop = Stop { passes: Some(passes), ..Stop::default() };
-    Settings { method, max_depth: DEPTH, seed, stop, crop: None }
+    Settings { method, max_depth: DEPTH, seed, stop, crop: None, sampling: Sampling::Sobol }
 }
 
 /// The means of the four quarters of a picture.
@@ -274,7 +274,7 @@ const DRAWS: u32 = 200_000;
 /// The power that arrives at what throws caustics, in watts, by aimed photons.
 fn power_by_aiming(world: &World) -> f64 {
     let aim = Aim::new(world);
-    let pass = Pass { index: 0, seed: 1 };
+    let pass = Pass { index: 0, seed: 1, sampling: Sampling::Sobol };
     let mut sum = 0.0;
     for photon in 0..DRAWS {
         if let Some(aimed) = aim.emit(&pass.photon_sampler(photon)) {
@@ -285,7 +285,7 @@ fn power_by_aiming(world: &World) -> f64 {
 }
 
 fn power_by_chance(world: &World) -> f64 {
-    let pass = Pass { index: 0, seed: 2 };
+    let pass = Pass { index: 0, seed: 2, sampling: Sampling::Sobol };
     let mut sum = 0.0;
     for photon in 0..8 * DRAWS {
         let sampler = pass.photon_sampler(photon);

@@ -84,7 +84,7 @@ fn compare_says_what_it_cannot_compare() {
         (vec!["small.ppm", "two.ppm"], "--size 2x1"),
         (vec!["cut.ppm", "two.ppm"], "cannot be decoded"),
         (vec!["small.ppm", "small.ppm", "-o", "heat.exr"], "written as .png or .ppm"),
-        (vec!["small.ppm", "small.ppm", "-o", "heat.png", "--heat", "welch"], "standard error of both"),
+        (vec!["small.ppm", "small.ppm", "-o", "heat.png", "--heat", "welch"], "standard errors of both"),
         (vec!["small.ppm", "small.ppm", "--max-relmse", "-1"], "a number from 0 on"),
     ] {
         let output = snell(out.path(), &[&["compare"], &args[..]].concat());

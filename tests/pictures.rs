@@ -90,10 +90,21 @@ fn the_layers_are_those_asked_for_and_change_no_colour() {
     folder.render(&["-o", "all.exr", "--layers", "all"]);
     folder.render(&["-o", "some.exr", "--layers", "depth,time"]);
     let [plain, all, some] = ["plain.exr", "all.exr", "some.exr"].map(|name| open(&folder.path(name)));
-    let colors = ["B", "G", "R", "error.B", "error.G", "error.R", "samples"];
+    let colors = [
+        "B",
+        "G",
+        "R",
+        "error.B",
+        "error.G",
+        "error.R",
+        "samples",
+        "tile_error.B",
+        "tile_error.G",
+        "tile_error.R",
+    ];
     assert_eq!(names(&plain), colors);
     assert!(
-        ["albedo.R", "normal.Z", "depth.Z", "time.s"]
+        ["albedo.R", "normal.Z", "depth.Z", "margin.G", "time.s"]
             .iter()
             .all(|name| names(&all).iter().any(|n| n == name))
     );

@@ -1,128 +1,7 @@
-//! That errors are honest, that stops keep their word, and that a study says what it measured.
+//! That a study says what it measured, and `compare` what is more than noise.
 
-use super::laws::worlds::{camera, cornell, cuboid, diffuse, emissive, empty, quad, sphere};
-use snell::math::{Rgb, Vec3};
-use snell::output::Picture;
-use snell::render::film::Film;
-use snell::render::light::{Environment, EnvironmentRadiance};
-use snell::render::{Method, Monitor, Outcome, Parts, Progress, Settings, Stop, StoppedBy, World, render};
-use snell::study::metrics::{Relative, mean};
 use std::path::Path;
 use std::process::{Command, Output};
-
-/// Four scenes whose noise has a finite variance.
-fn scenes(side: u32) -> [(&'static str, World); 4] {
-    let floor = |parts: &mut Parts| {
-        parts.materials = vec![diffuse(0.6), emissive(3.0)];
-        parts.meshes = vec![quad(Vec3::new(-4.0, 0.0, -4.0), Vec3::Z * 8.0, Vec3::X * 8.0, 0)];
-    };
-    let view = || camera(Vec3::new(0.0, 1.5, 4.0), Vec3::new(0.0, -0.3, -1.0), 0.5, side);
-    let mut lamp = empty(view());
-    floor(&mut lamp);
-    lamp.solids = vec![sphere(Vec3::new(0.5, 2.0, 0.0), 0.5, 1), sphere(Vec3::new(-0.5, 0.5, 0.0), 0.5, 0)];
-    let mut sky = empty(view());
-    floor(&mut sky);
-    sky.solids = vec![sphere(Vec3::new(0.0, 0.7, 0.0), 0.7, 0)];
-    let radiance = EnvironmentRadiance::Constant(Rgb::new(0.5, 0.7, 1.0));
-    sky.environment = Some(Environment { radiance, scale: 1.0, rotation: 0.0 });
-    let mut room = empty(camera(Vec3::new(0.2, 0.1, 0.3), Vec3::new(0.3, -0.2, -1.0), 1.0, side));
-    room.materials = vec![diffuse(0.5), emissive(2.0)];
-    room.meshes = cuboid(Vec3::splat(-1.0), Vec3::new(1.0, 2.0, 1.0), true, 0);
-    room.meshes.push(quad(Vec3::new(-0.5, 1.99, -0.5), Vec3::X, Vec3::Z, 1));
-    [("cornell", cornell(side, false)), ("lamp", lamp), ("sky", sky), ("room", room)]
-        .map(|(name, parts)| (name, World::new(parts)))
-}
-
-fn rendered(world: &World, seed: u64, stop: Stop) -> Outcome {
-    render(world, &Settings { method: Method::Pt, max_depth: 8, seed, stop, crop: None }, &())
-}
-
-fn after(passes: u32) -> Stop {
-    Stop { passes: Some(passes), ..Stop::default() }
-}
-
-fn picture(film: &Film) -> Picture {
-    let region = film.region();
-    let (width, height, radiance) = (region.width, region.height, film.mean());
-    Picture { width, height, radiance, standard_error: None, is_display: false, facts: Vec::new() }
-}
-
-/// √relMSE of a film against a reference whose own relMSE is `noise`.
-fn true_error(film: &Film, reference: &Picture, noise: f64) -> f64 {
-    let relative = Relative::to(reference.mean_luminance());
-    let pairs = film.mean().into_iter().zip(&reference.radiance);
-    (mean(&pairs.map(|(x, &r)| relative.squared(x, r)).collect::<Vec<_>>()) - noise).max(0.0).sqrt()
-}
-
-/// For each scene, how many of the intervals of short renders hold the true error.
-fn coverage(side: u32, reference_passes: u32, runs: u64, passes: u32) -> Vec<(&'static str, usize)> {
-    let of = |(name, world): (&'static str, World)| {
-        let long = rendered(&world, 1_000, after(reference_passes));
-        let noise = long.error.expect("many passes").error.powi(2);
-        let reference = picture(&long.film);
-        let holds = (0..runs).filter(|&seed| {
-            let short = rendered(&world, seed, after(passes));
-            let (low, high) = short.error.and_then(|e| e.interval).expect("four passes or more");
-            (low..=high).contains(&true_error(&short.film, &reference, noise))
-        });
-        (name, holds.count())
-    };
-    scenes(side).into_iter().map(of).collect()
-}
-
-#[test]
-fn printed_intervals_hold_the_true_error() {
-    let counts = coverage(10, 2048, 12, 64);
-    let all: usize = counts.iter().map(|(_, count)| count).sum();
-    // Of 48 intervals of 95 %, 41 or more hold the truth with probability 0.99. Rare bright paths, which 64 passes have
-    // not met yet, cost a few.
-    assert!(all >= 40, "{counts:?} of 12 each");
-}
-
-#[test]
-#[ignore = "takes minutes: 800 renders; the goal, not reached where rare paths carry much of the light"]
-fn printed_intervals_hold_the_true_error_in_92_to_97_percent() {
-    let counts = coverage(24, 8192, 200, 16);
-    let all: usize = counts.iter().map(|(_, count)| count).sum();
-    assert!((0.92..=0.975).contains(&(all as f64 / 800.0)), "{counts:?} of 200 each");
-}
-
-#[test]
-fn an_error_that_is_asked_for_is_reached() {
-    let of = |(name, world): (&'static str, World)| {
-        let long = rendered(&world, 1_000, after(2048));
-        let estimate = long.error.expect("many passes");
-        let (noise, target) = (estimate.error.powi(2), 4.0 * estimate.error);
-        let reference = picture(&long.film);
-        let reached = (0..6).filter(|&seed| {
-            let outcome = rendered(&world, seed, Stop { error: Some(target), ..Stop::default() });
-            assert_eq!(outcome.stopped_by, StoppedBy::Error);
-            true_error(&outcome.film, &reference, noise) <= target
-        });
-        (name, reached.count())
-    };
-    let counts: Vec<_> = scenes(10).into_iter().map(of).collect();
-    let all: usize = counts.iter().map(|(_, count)| count).sum();
-    // Nine of ten are promised; of 24, 18 or more have probability 0.99.
-    assert!(all >= 18, "{counts:?} of 6 each");
-}
-
-#[test]
-fn looking_at_the_error_does_not_change_the_picture() {
-    struct Curious;
-    impl Monitor for Curious {
-        fn pass_done(&self, progress: &Progress<'_>) {
-            assert_eq!(progress.film.error().is_some(), progress.film.passes() > 1);
-        }
-    }
-    let [(_, world), ..] = scenes(16);
-    let blind = rendered(&world, 3, after(20));
-    let stop = Stop { error: Some(1e-9), ..after(20) };
-    let settings = Settings { method: Method::Pt, max_depth: 8, seed: 3, stop, crop: None };
-    let curious = render(&world, &settings, &Curious);
-    assert_eq!(blind.film.mean(), curious.film.mean());
-    assert_eq!(blind.error, curious.error);
-}
 
 fn snell(folder: &Path, args: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_snell"));
@@ -185,7 +64,8 @@ render { method: classic { pixel: center } }
     std::fs::write(folder.path().join("a.ppm"), b"P6\n1 1\n255\nabc").expect("written");
     for (args, words) in [
         (vec!["s.snell", "--sweep", "methd=pt"], "did you mean `method`?"),
-        (vec!["s.snell", "--sweep", "tolerance=1mm"], "cannot be varied yet"),
+        (vec!["s.snell", "--sweep", "precision=f32"], "docs/hard-cases.md"),
+        (vec!["s.snell", "--sweep", "tolerance=1mm"], "the scene has none"),
         (vec!["s.snell", "-o", "a.pdf"], "a report is a page"),
         (vec!["s.snell", "--against", "a.ppm"], "holds display values"),
         (vec!["s.snell", "--against", "b.exr"], "cannot be read"),
@@ -194,5 +74,95 @@ render { method: classic { pixel: center } }
         let output = snell(folder.path(), &[&["study"], &args[..]].concat());
         assert_eq!(output.status.code(), Some(2), "{args:?}: {}", said(&output.stderr));
         assert!(said(&output.stderr).contains(words), "{args:?}: {}", said(&output.stderr));
+    }
+}
+
+/// The findings and curves of a study in a folder of its own.
+fn findings(scene: &str, args: &[&str]) -> serde_json::Value {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    std::fs::write(folder.path().join("s.snell"), scene).expect("written");
+    let output = snell(folder.path(), &[&["study", "s.snell", "--format", "json", "-q"], args].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+fn curve<'a>(study: &'a serde_json::Value, name: &str) -> &'a serde_json::Value {
+    let curves = study["curves"].as_array().expect("a list");
+    let named = curves.iter().find(|curve| curve["variant"] == name);
+    named.unwrap_or_else(|| panic!("no curve is called {name}: {study:#}"))
+}
+
+/// √relMSE of a curve's last step.
+fn last_error(curve: &serde_json::Value) -> f64 {
+    let step = curve["steps"].as_array().and_then(|steps| steps.last()).expect("steps");
+    step["rel_mse"]["mean"].as_f64().expect("a number").sqrt()
+}
+
+#[test]
+fn evenly_spread_samples_are_worth_something() {
+    let study =
+        findings(SCENE, &["--sweep", "sampler=sobol,independent", "--sweep", "spp=32", "--seeds", "4"]);
+    let [sobol, independent] =
+        ["pt sampler=sobol", "pt sampler=independent"].map(|name| last_error(curve(&study, name)));
+    assert!(sobol < 0.95 * independent, "{sobol} {independent}");
+}
+
+#[test]
+fn each_filter_has_a_reference_of_its_own() {
+    // Against the reference of the other filter, edges alone would be wrong by many percent.
+    let study =
+        findings(SCENE, &["--sweep", "filter=box(0.5px),tent(4px)", "--sweep", "spp=64", "--seeds", "4"]);
+    for name in ["pt filter=box", "pt filter=tent(4px)"] {
+        assert_eq!(curve(&study, name)["steps"][6]["is_biased"], false, "{name}: {study:#}");
+    }
+}
+
+#[test]
+fn coarse_triangles_are_a_bias_that_no_pass_removes() {
+    let vase = "snell 1
+camera { position: (0m, 0.5m, 3m), look_at: (0m, 0.5m, 0m), film: { size: 24 x 16 } }
+environment { radiance: 1 }
+revolve { profile: bezier [(0cm, 0cm), (120cm, 0cm), (-40cm, 60cm), (60cm, 100cm)], material: diffuse { color: 0.1 } }
+";
+    let sweeps =
+        ["--sweep", "method=pt", "--sweep", "tolerance=exact,30cm", "--sweep", "spp=64", "--seeds", "4"];
+    let study = findings(vase, &sweeps);
+    let [exact, coarse] =
+        ["pt tolerance=exact", "pt tolerance=30cm"].map(|name| last_error(curve(&study, name)));
+    assert!(coarse > 3.0 * exact, "{coarse} {exact}");
+    let sentences = study["findings"].to_string();
+    assert!(
+        sentences.contains("pt tolerance=30cm") && sentences.contains("It is bias, not noise"),
+        "{sentences}"
+    );
+}
+
+#[test]
+fn photons_whose_discs_do_not_shrink_keep_a_bias_that_is_named() {
+    let sweeps = ["method=ppm", "photons=20000", "radius=1m", "shrink=0.999", "spp=32"];
+    let args: Vec<&str> =
+        sweeps.iter().flat_map(|sweep| ["--sweep", sweep]).chain(["--seeds", "4"]).collect();
+    let study = findings(SCENE, &args);
+    let sentences = study["findings"].to_string();
+    assert!(sentences.contains("It is bias, not noise, the blur of photons"), "{sentences}");
+}
+
+#[test]
+fn half_a_percent_of_energy_is_found_by_compare() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    for (name, power, seed) in [("a", "80W", "1"), ("same", "80W", "2"), ("brighter", "80.4W", "2")] {
+        let scene = SCENE.replace("80W", power);
+        std::fs::write(folder.path().join("s.snell"), scene).expect("written");
+        let file = format!("{name}.exr");
+        let args =
+            ["render", "s.snell", "--size", "48x32", "--passes", "192", "--seed", seed, "-o", &file, "-q"];
+        let output = snell(folder.path(), &args);
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output.stderr));
+    }
+    for (name, words) in
+        [("same.exr", "noise explains the difference"), ("brighter.exr", "the difference is more than noise")]
+    {
+        let output = snell(folder.path(), &["compare", name, "a.exr"]);
+        assert!(said(&output.stdout).contains(words), "{name}: {}", said(&output.stdout));
     }
 }

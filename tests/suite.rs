@@ -1,5 +1,6 @@
 //! All integration tests, in one binary: linking several costs more than running them.
 
+mod accuracy;
 mod allow;
 mod assets;
 mod classic;

@@ -13,7 +13,7 @@ use miette::LabeledSpan;
 /// The longest side of a film, in pixels.
 const LONGEST_SIDE: u32 = 65_536;
 /// The widest pixel filter, in pixels.
-const WIDEST_FILTER: f64 = 16.0;
+pub const WIDEST_FILTER: f64 = 16.0;
 
 /// The camera that the scene is seen through: the one asked for, or the first. `file` is where to say that there is none.
 pub fn camera<'a>(

@@ -17,7 +17,7 @@ use crate::diag::{Problems, Trail};
 use crate::ir::{MaterialKind, Scene};
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
-pub use camera::camera;
+pub use camera::{WIDEST_FILTER, camera};
 pub use error::CheckError;
 use miette::Diagnostic;
 use rustc_hash::FxHashSet;

@@ -169,8 +169,7 @@ impl Pair {
     }
 }
 
-const NO_WELCH: &str =
-    "Welch's test needs the standard error of both pictures: write .exr, with two passes or more";
+const NO_WELCH: &str = "Welch's test needs the standard errors of both pictures: write both as .exr by this version, with two passes or more";
 
 /// A heat map is made of display values, so its file must hold such.
 fn heat_target(path: &Path) -> Result<(&Path, output::Format), String> {

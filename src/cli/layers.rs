@@ -2,6 +2,7 @@
 
 use crate::math::{Rgb, Vec3};
 use crate::output::Plane;
+use crate::render::film::Film;
 use crate::render::{Outcome, World};
 use clap::ValueEnum;
 
@@ -14,6 +15,8 @@ pub enum Choice {
     Normal,
     /// The distance to the first surface, in metres.
     Depth,
+    /// How far the colour may be from the truth: half its 95 % interval.
+    Margin,
     /// Seconds of a thread spent on the pixel; differs from run to run.
     Time,
     /// All of these.
@@ -24,11 +27,11 @@ pub enum Choice {
 
 /// The layers that are wanted; `None` takes back what was said before it.
 pub fn chosen(said: &[Choice]) -> Vec<Choice> {
-    use Choice::{Albedo, All, Depth, None, Normal, Time};
+    use Choice::{Albedo, All, Depth, Margin, None, Normal, Time};
     match said.iter().rposition(|&choice| choice == None) {
         Some(none) => said[none + 1..].to_vec(),
         Option::None if said.is_empty() => vec![Albedo, Normal, Depth],
-        Option::None if said.contains(&All) => vec![Albedo, Normal, Depth, Time],
+        Option::None if said.contains(&All) => vec![Albedo, Normal, Depth, Margin, Time],
         Option::None => said.to_vec(),
     }
 }
@@ -49,10 +52,22 @@ pub fn planes(wanted: &[Choice], world: &World, seed: u64, outcome: &Outcome) ->
             planes.push(Plane { name: "depth.Z".to_owned(), samples: first.depth });
         }
     }
+    let margin = wants(Choice::Margin).then(|| outcome.film.margin()).flatten();
+    if let Some(margin) = margin {
+        planes.extend(colors("margin", &margin));
+    }
     if wants(Choice::Time) {
         planes.push(Plane { name: "time.s".to_owned(), samples: outcome.pixel_seconds() });
     }
     planes
+}
+
+/// What tells noise from a difference, where neighbours may share theirs: see `study::welch`. Nothing below two passes.
+pub fn errors(film: &Film) -> Vec<Plane> {
+    film.tile_errors().map_or(Vec::new(), |errors| {
+        let errors: Vec<Rgb> = errors.into_iter().map(Rgb::from).collect();
+        colors("tile_error", &errors).into()
+    })
 }
 
 fn colors(layer: &str, pixels: &[Rgb]) -> [Plane; 3] {
@@ -75,9 +90,9 @@ mod tests {
 
     #[test]
     fn the_last_word_counts() {
-        use Choice::{Albedo, All, Depth, Normal, Time};
+        use Choice::{Albedo, All, Depth, Margin, Normal, Time};
         assert_eq!(chosen(&[]), [Albedo, Normal, Depth]);
-        assert_eq!(chosen(&[All]), [Albedo, Normal, Depth, Time]);
+        assert_eq!(chosen(&[All]), [Albedo, Normal, Depth, Margin, Time]);
         assert_eq!(chosen(&[All, Choice::None]), []);
         assert_eq!(chosen(&[Choice::None, Depth]), [Depth]);
     }

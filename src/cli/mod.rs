@@ -27,7 +27,6 @@ mod sequence;
 mod session;
 mod study;
 mod summary;
-mod sweep;
 mod tone;
 
 use clap::{Parser, Subcommand};

@@ -1,25 +1,25 @@
 //! `snell render`: from a scene to a picture.
 
+mod files;
+mod ready;
+
 use super::args::{self, MessageArgs, Method, SceneArgs};
 use super::frames::{self, Frames};
 use super::layers;
-use super::lossy::{self, Loss};
-use super::pilot::BYTES_PER_PIXEL;
 use super::progress::Bar;
 use super::replay;
 use super::sequence;
 use super::session::Session;
 use super::summary::Summary;
 use super::{Exit, fail, interrupt, note};
-use crate::check::Checked;
-use crate::ir;
-use crate::lower::Lowered;
-use crate::output::{Display, Exposure, Format, Frame, Target, Tone};
-use crate::plan::{Plan, Wanted, Wish};
+use crate::output::Target;
+use crate::plan::Wanted;
 use crate::render::film::Region;
-use crate::render::{Outcome, Settings, Stop, StoppedBy};
+use crate::render::{Outcome, StoppedBy};
 use clap::Args;
-use std::path::{Path, PathBuf};
+pub use files::{open_targets, output_names, write_report};
+pub use ready::{Ready, display, wish};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Arguments of `snell render`.
@@ -72,7 +72,7 @@ pub struct RenderArgs {
     /// The seed of all random numbers
     #[arg(long, value_name = "N", value_parser = args::seed, allow_hyphen_values = true)]
     pub(super) seed: Option<u64>,
-    /// What an .exr holds beside colour, its standard error and the number of samples; may be repeated, `all` or `none`
+    /// What an .exr holds beside colour, its standard errors and the number of samples; may be repeated, `all` or `none`
     /// [default: albedo,normal,depth]
     #[arg(long, value_name = "LAYER", value_delimiter = ',')]
     layers: Vec<layers::Choice>,
@@ -99,7 +99,7 @@ pub fn run(args: &RenderArgs) -> Exit {
         Ok(session) => session,
         Err(reason) => return fail(reason),
     };
-    if let Err(reason) = args.report.as_deref().map_or(Ok(()), writable) {
+    if let Err(reason) = args.report.as_deref().map_or(Ok(()), files::writable) {
         return fail(reason);
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(args.threads.unwrap_or(0))).build();
@@ -189,7 +189,7 @@ pub fn one(
     }
     // Of nothing seen, no picture is better than a black one.
     if rendered.outcome.stats.passes > 0 {
-        let paths: Result<Vec<PathBuf>, _> = write(&mut targets, args, &rendered)
+        let paths: Result<Vec<PathBuf>, _> = files::write(&mut targets, args, &rendered)
             .and_then(|()| targets.into_iter().map(Target::finish).collect());
         rendered.files = paths.map_err(fail)?.iter().map(|path| path.display().to_string()).collect();
     }
@@ -205,241 +205,13 @@ pub(super) fn compile(
     let start = Instant::now();
     let ready = session.compile().and_then(|checked| {
         let camera = session.camera(&checked, args.camera.as_deref())?.clone();
-        pool.install(|| make_ready(checked, camera, args, session, start))
+        pool.install(|| ready::make_ready(checked, camera, args, session, start))
     });
     let good = session.is_good();
     if args.frames.is_none() || !good {
         session.report_alone(&args.messages); // warnings of frames were told when they were checked
     }
     ready.filter(|_| good).ok_or(Exit::SceneWrong)
-}
-
-/// A scene ready to be rendered.
-pub(super) struct Ready {
-    plan: Plan,
-    pub(super) lowered: Lowered,
-    camera: ir::Camera,
-    pub(super) settings: Settings,
-    /// What the scene's texts and parameters amount to.
-    scene_hash: String,
-    /// Every file that the scene is made of.
-    inputs: Vec<PathBuf>,
-    /// Whether display values lose their fraction.
-    floor: bool,
-    /// Why effects cannot be left out as the command says.
-    refusal: Option<String>,
-    /// What is left out.
-    loss: Option<Loss>,
-    compile_seconds: f64,
-    build_seconds: f64,
-}
-
-fn make_ready(
-    checked: Checked,
-    mut camera: ir::Camera,
-    args: &RenderArgs,
-    session: &mut Session,
-    start: Instant,
-) -> Option<Ready> {
-    if let Some(size) = args.size {
-        camera.film.size.value = size;
-    }
-    let compiled = start.elapsed().as_secs_f64();
-    let loaded = crate::load::load(&checked, &session.sources, &session.files, &mut session.problems)?;
-    if !session.is_good() {
-        return None;
-    }
-    let mut plan = crate::plan::plan(&loaded, Some(&camera), wish(args.method));
-    let left_out = plan.want(&args.effects);
-    let refusal = lossy::refusal(&left_out, &plan, &camera, args.lossy, &session.sources);
-    crate::plan::warn(&plan, &loaded, &mut session.problems);
-    let lowered = crate::lower::lower(&loaded, &plan, &camera, &session.files, &mut session.problems)?;
-    let build_seconds = start.elapsed().as_secs_f64() - compiled;
-    let settings =
-        Settings { crop: crop_of(args, &camera), ..settings(args, &checked.render, &plan, &lowered) };
-    let texts = session.sources.files().iter().map(|file| file.path.clone());
-    let inputs = texts.chain(loaded.files.iter().cloned()).collect();
-    let floor = plan.method == ir::Method::Classic && checked.render.classic.floor;
-    let loss = if refusal.is_some() || left_out.is_empty() {
-        None
-    } else {
-        Loss::measure(&left_out, &loaded, &plan, &camera, session)
-    };
-    let (scene_hash, compile_seconds) = (session.fingerprint(), compiled);
-    Some(Ready {
-        plan,
-        lowered,
-        camera,
-        settings,
-        scene_hash,
-        inputs,
-        floor,
-        refusal,
-        loss,
-        compile_seconds,
-        build_seconds,
-    })
-}
-
-/// The method that the command asks for.
-pub fn wish(method: Option<Method>) -> Wish {
-    match method {
-        None => Wish::Scene,
-        Some(Method::Auto) => Wish::Auto,
-        Some(Method::Pt) => Wish::Method(ir::Method::Pt),
-        Some(Method::Ppm) => Wish::Method(ir::Method::Ppm),
-        Some(Method::Hybrid) => Wish::Method(ir::Method::Hybrid),
-        Some(Method::Classic) => Wish::Method(ir::Method::Classic),
-    }
-}
-
-/// A stop flag replaces the scene's stop.
-fn settings(args: &RenderArgs, render: &ir::Render, plan: &Plan, lowered: &Lowered) -> Settings {
-    let flags = Stop { passes: args.passes, seconds: args.time, error: args.error };
-    let written = Stop {
-        passes: render.stop.passes.map(|passes| passes.value),
-        seconds: render.stop.seconds.map(|seconds| seconds.value),
-        error: render.stop.error.map(|error| error.value),
-    };
-    let stop = [flags, written].into_iter().find(|stop| *stop != Stop::default());
-    let passes = if plan.is_exact { 1 } else { DEFAULT_PASSES };
-    Settings {
-        method: lowered.method,
-        max_depth: plan.depth,
-        seed: args.seed.or(render.seed.map(|seed| seed.value)).unwrap_or(0),
-        stop: stop.unwrap_or(Stop { passes: Some(passes), ..Stop::default() }),
-        crop: args.crop,
-    }
-}
-
-/// What is rendered of the picture: the command line goes before the scene.
-fn crop_of(args: &RenderArgs, camera: &ir::Camera) -> Option<Region> {
-    let written = camera.film.crop_in_pixels();
-    args.crop.or_else(|| written.map(|[x, y, width, height]| Region { x, y, width, height }))
-}
-
-impl Ready {
-    /// Why rendering would be in vain: an output that would replace an input, a crop outside the picture, or more memory
-    /// than there is.
-    fn reason_not_to_start(&self, args: &RenderArgs, targets: &[Target]) -> Result<(), String> {
-        if let Some(refusal) = &self.refusal {
-            return Err(refusal.clone());
-        }
-        if let Some(path) = overwritten(args, targets, &self.inputs) {
-            return Err(format!("the scene reads `{}`: write elsewhere with `-o`", path.display()));
-        }
-        if !args.layers.is_empty() && !holds_layers(targets) {
-            return Err("layers need a file that can hold them: add `-o NAME.exr`".to_owned());
-        }
-        let (width, height) = self.camera.film.size.value;
-        let picture = Region { x: 0, y: 0, width, height };
-        let region = self.settings.crop.map_or(picture, |crop| crop.clipped(&picture));
-        if region.area() == 0 {
-            return Err(format!("the crop lies outside the picture, which has {width} x {height} pixels"));
-        }
-        let needed = region.area() as u64 * BYTES_PER_PIXEL;
-        match available_memory() {
-            Some(free) if needed > free => Err(format!(
-                "{} x {} pixels need about {} GB of memory, and {} GB are free: use `--size`, or render parts with `--crop`",
-                region.width,
-                region.height,
-                needed >> 30,
-                free >> 30,
-            )),
-            _ => Ok(()),
-        }
-    }
-}
-
-/// How a film's pictures are shown; `floor` says whether display values lose their fraction.
-pub fn display(film: &ir::Film, floor: bool) -> Display {
-    Display {
-        exposure: match film.exposure.value {
-            ir::Exposure::Ev(ev) => Exposure::Ev(ev as f32),
-            ir::Exposure::Auto => Exposure::Auto,
-        },
-        tone: match film.tone.value {
-            ir::Tone::Srgb => Tone::Srgb,
-            ir::Tone::Linear => Tone::Linear,
-            ir::Tone::Reinhard => Tone::Reinhard,
-            ir::Tone::Agx => Tone::Agx,
-        },
-        floor,
-    }
-}
-
-/// Where the pictures go: what `-o` says, or the scene's name.
-pub fn output_names(args: &RenderArgs) -> Vec<PathBuf> {
-    let default = || match args.scene.to_str() {
-        Some("-") => PathBuf::from("out.png"),
-        _ => args.scene.with_extension("png"),
-    };
-    if args.outputs.is_empty() { vec![default()] } else { args.outputs.clone() }
-}
-
-/// Makes sure that the pictures can be written.
-///
-/// # Errors
-/// Why one cannot, in a sentence.
-pub fn open_targets(paths: &[PathBuf]) -> Result<Vec<Target>, String> {
-    if paths.iter().any(|path| path.as_os_str() == "-") {
-        return Err("a picture does not go to standard output: name a file with `-o`".to_owned());
-    }
-    paths.iter().map(|path| Target::open(path).map_err(|error| error.to_string())).collect()
-}
-
-/// The memory that can be had without swapping, in bytes, where the system says.
-fn available_memory() -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kilobytes| kilobytes << 10)
-}
-
-/// The output that would replace a file of the scene.
-fn overwritten<'a>(args: &'a RenderArgs, targets: &'a [Target], inputs: &[PathBuf]) -> Option<&'a Path> {
-    let inputs: Vec<PathBuf> = inputs.iter().filter_map(|path| path.canonicalize().ok()).collect();
-    let outputs = targets.iter().map(Target::path).chain(args.report.as_deref());
-    outputs.into_iter().find(|path| path.canonicalize().is_ok_and(|path| inputs.contains(&path)))
-}
-
-fn writable(report: &Path) -> Result<(), String> {
-    let folder = report.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let shown = report.display();
-    match () {
-        () if report.is_dir() => Err(format!("`{shown}` cannot be written: it is a folder")),
-        () if !folder.is_dir() => Err(format!("`{shown}` cannot be written: there is no folder for it")),
-        () => Ok(()),
-    }
-}
-
-fn write(
-    targets: &mut [Target],
-    args: &RenderArgs,
-    rendered: &Rendered,
-) -> Result<(), crate::output::OutputError> {
-    let (outcome, ready) = (&rendered.outcome, &rendered.ready);
-    let display = display(&ready.camera.film, ready.floor);
-    let mut facts = rendered.summary().facts();
-    facts.extend(display.facts());
-    let wanted = if holds_layers(targets) { layers::chosen(&args.layers) } else { Vec::new() };
-    let planes = layers::planes(&wanted, &ready.lowered.world, ready.settings.seed, outcome);
-    let region = outcome.film.region();
-    let variance = outcome.film.variance().unwrap_or_default();
-    let frame = Frame {
-        width: region.width,
-        height: region.height,
-        radiance: outcome.film.mean(),
-        planes,
-        standard_error: variance.iter().map(|pixel| pixel.map(f32::sqrt)).collect(),
-        sample_counts: vec![outcome.stats.passes; region.area()],
-        facts,
-    };
-    targets.iter_mut().try_for_each(|target| target.write(&frame, &display))
-}
-
-/// Whether any of the files can hold more than colours.
-fn holds_layers(targets: &[Target]) -> bool {
-    targets.iter().any(|target| target.format() == Format::Exr)
 }
 
 fn conclude(args: &RenderArgs, rendered: &Rendered) -> Exit {
@@ -451,17 +223,6 @@ fn conclude(args: &RenderArgs, rendered: &Rendered) -> Exit {
         return fail(error);
     }
     if rendered.is_interrupted() { Exit::Interrupted } else { Exit::Done }
-}
-
-/// Writes the facts where `--report` says.
-///
-/// # Errors
-/// When the file cannot be written.
-pub fn write_report(args: &RenderArgs, facts: &serde_json::Value) -> Result<(), crate::output::OutputError> {
-    match &args.report {
-        Some(path) => crate::output::replace(path, format!("{facts:#}\n").as_bytes()),
-        None => Ok(()),
-    }
 }
 
 /// `X,Y`.

@@ -186,6 +186,9 @@ impl Summary<'_> {
             ("seed", self.settings.seed.to_string()),
             ("settings", self.settings_json().to_string()),
         ];
+        if let Some(error) = self.outcome.film.whole_error() {
+            facts.push(("whole_error", error.map(|error| format!("{error:e}")).join(" ")));
+        }
         if let Some(loss) = self.loss {
             facts.push(("left_out", loss.effects.join(" ")));
             facts.push(("left_out_energy", format!("{:.4}", loss.energy)));

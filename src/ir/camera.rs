@@ -202,6 +202,18 @@ impl Filter {
         | Self::BlackmanHarris(radius)) = self;
         radius
     }
+
+    /// The same, reaching `radius` pixels.
+    #[must_use]
+    pub const fn with_radius(self, radius: f64) -> Self {
+        match self {
+            Self::Box(_) => Self::Box(radius),
+            Self::Tent(_) => Self::Tent(radius),
+            Self::Gaussian(_) => Self::Gaussian(radius),
+            Self::Mitchell(_) => Self::Mitchell(radius),
+            Self::BlackmanHarris(_) => Self::BlackmanHarris(radius),
+        }
+    }
 }
 
 /// How bright the picture becomes.

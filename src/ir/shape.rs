@@ -18,6 +18,13 @@ pub struct Shape {
     pub calls: Vec<Spanned<String>>,
 }
 
+impl Shape {
+    /// Whether triangles may stand for it within a tolerance.
+    pub const fn has_tolerance(&self) -> bool {
+        matches!(self.kind, ShapeKind::Revolve { .. } | ShapeKind::Sweep { .. } | ShapeKind::Extrude { .. })
+    }
+}
+
 /// The kinds of shapes. Lengths in metres.
 #[derive(Clone, PartialEq, Debug)]
 pub enum ShapeKind {

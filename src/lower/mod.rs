@@ -22,7 +22,7 @@ use crate::diag::Problems;
 use crate::ir;
 use crate::load::Loaded;
 use crate::math::DVec3;
-use crate::plan::{Effect, Plan};
+use crate::plan::{Effect, Plan, Tessellation};
 use crate::render::camera::Camera;
 use crate::render::geometry::Shapes;
 use crate::render::integrator::{ClassicSettings, Shading};
@@ -73,6 +73,7 @@ pub fn lower(
         instances: Instances::count(loaded),
         sources: Vec::new(),
         is_smooth: plan.simulates(Effect::SmoothNormals),
+        tessellation: plan.tessellation,
     };
     for object in &loaded.scene.objects {
         lowering.object(object);
@@ -159,6 +160,8 @@ struct Lowering<'a> {
     sources: Vec<Span>,
     /// Whether triangles keep the normals of their vertices.
     is_smooth: bool,
+    /// Whether shapes are made of triangles.
+    tessellation: Tessellation,
 }
 
 impl Lowering<'_> {

@@ -7,7 +7,9 @@ use super::{Lowering, curve, heightfield, sweep};
 use crate::ir::{self, Object, RevolveMethod, ShapeKind};
 use crate::load::LoadedMesh;
 use crate::math::{DAffine3, DMat3, DVec2, DVec3, Vec3};
+use crate::plan::Tessellation;
 use crate::render::shape::{Frustum, MaterialId, Mesh, Profile, Solid, SolidKind, SourceId, Torus};
+use crate::source::{Span, Spanned};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -102,8 +104,7 @@ impl Lowering<'_> {
                 let tube = sweep::Tube { path, radii, caps: *caps, closed: *closed };
                 // A tube is seen by its width, however long it is.
                 let width = radii[0].max(radii[1]) * TUBE_TOLERANCE;
-                let tolerance = tolerance.map_or(width, |tolerance| tolerance.value);
-                Form::Triangles(sweep::tube(&tube, tolerance))
+                Form::Triangles(sweep::tube(&tube, self.within(*tolerance).unwrap_or(width)))
             }
             ShapeKind::Heightfield { heights, size, smooth } => {
                 let grid = match heights {
@@ -125,7 +126,7 @@ impl Lowering<'_> {
                 if curve::signed_area(&pieces) < 0.0 {
                     pieces = pieces.iter().rev().map(|c| [c[3], c[2], c[1], c[0]]).collect();
                 }
-                match method {
+                match self.method_of_revolve(*method, shape.span) {
                     RevolveMethod::Exact if !emits => {
                         let kind = SolidKind::Revolve(Profile { pieces });
                         Form::Exact { kind, object_from_solid: DAffine3::IDENTITY }
@@ -142,10 +143,29 @@ impl Lowering<'_> {
             }
             ShapeKind::Extrude { outline, holes, depth, tolerance } => {
                 let usual = self.size(object) * OUTLINE_TOLERANCE;
-                let tolerance = tolerance.map_or(usual, |tolerance| tolerance.value);
+                let tolerance = self.within(*tolerance).unwrap_or(usual);
                 Form::Triangles(Triangles::extrude(outline, holes, depth.value, tolerance))
             }
         })
+    }
+
+    /// How a surface of revolution is made that says `written`.
+    fn method_of_revolve(&self, written: RevolveMethod, span: Span) -> RevolveMethod {
+        match self.tessellation {
+            Tessellation::AsWritten => written,
+            Tessellation::Exact => RevolveMethod::Exact,
+            Tessellation::Within(tolerance) => {
+                RevolveMethod::Tessellated(Some(Spanned::new(tolerance, span)))
+            }
+        }
+    }
+
+    /// The tolerance of a shape that has no other form than triangles and says `written`.
+    fn within(&self, written: Option<Spanned<f64>>) -> Option<f64> {
+        match self.tessellation {
+            Tessellation::Within(tolerance) => Some(tolerance),
+            Tessellation::AsWritten | Tessellation::Exact => written.map(|tolerance| tolerance.value),
+        }
     }
 
     fn tolerance(&self, object: &Object, written: Option<f64>) -> f64 {

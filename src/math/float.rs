@@ -47,6 +47,16 @@ pub fn acos(x: f32) -> f32 {
     libm::acosf(x.clamp(-1.0, 1.0))
 }
 
+/// e to the power `x` in double precision.
+pub fn exp64(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// `x` to the power `y` in double precision.
+pub fn pow64(x: f64, y: f64) -> f64 {
+    libm::pow(x, y)
+}
+
 /// The tangent in double precision.
 pub fn tan64(x: f64) -> f64 {
     libm::tan(x)

@@ -23,6 +23,8 @@ pub struct Picture {
     pub radiance: Vec<Rgb>,
     /// The standard error of each pixel's channels, where the file has one.
     pub standard_error: Option<Vec<Rgb>>,
+    /// For each pixel, the standard error of the mean over its tile of 8 × 8 pixels, where the file has one.
+    pub tile_error: Option<Vec<Rgb>>,
     /// Whether the file held display values in [0, 1], decoded as sRGB, and not radiance.
     pub is_display: bool,
     /// What the file says of itself in text: names and values.
@@ -152,7 +154,15 @@ fn read_other(path: &Path, bytes: &[u8]) -> Result<Picture, ReadError> {
         false => Rgb::from(p.0),
     };
     let radiance = image.pixels().map(linear).collect();
-    Ok(Picture { width, height, radiance, standard_error: None, is_display, facts: Vec::new() })
+    Ok(Picture {
+        width,
+        height,
+        radiance,
+        standard_error: None,
+        tile_error: None,
+        is_display,
+        facts: Vec::new(),
+    })
 }
 
 /// The first layer with a colour, and its standard error where there is one.
@@ -182,6 +192,7 @@ fn read_exr(path: &Path, bytes: &[u8]) -> Result<Picture, ReadError> {
         height: layer.size.1 as u32,
         radiance,
         standard_error: channels(layer, "error."),
+        tile_error: channels(layer, "tile_error."),
         is_display: false,
         facts: facts.collect(),
     })

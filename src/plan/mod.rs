@@ -44,8 +44,21 @@ pub struct Plan {
     pub photon_shrink: f64,
     /// The most vertices of a path.
     pub depth: u32,
+    /// How shapes that triangles may stand for are made.
+    pub tessellation: Tessellation,
     /// Whether every pass would be like the first, because nothing is drawn at random.
     pub is_exact: bool,
+}
+
+/// How shapes that triangles may stand for, those of `revolve`, `sweep` and `extrude`, are made.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Tessellation {
+    /// As each of them says.
+    AsWritten,
+    /// Without triangles where there is another way, which is so for `revolve`; the others as they say.
+    Exact,
+    /// Of triangles that lie within so many metres of the shape in its own frame, whatever it says.
+    Within(f64),
 }
 
 impl Plan {
@@ -146,6 +159,7 @@ pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, wish: impl Into<Wish>)
         photon_radius: photons.radius.map(|radius| radius.value),
         photon_shrink: photons.shrink.map_or(PHOTON_SHRINK, |shrink| shrink.value),
         depth: render.depth.map_or(depth, |depth| depth.value),
+        tessellation: Tessellation::AsWritten,
         is_exact,
     }
 }

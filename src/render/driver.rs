@@ -14,7 +14,7 @@ use super::integrator::{
     Classic, ClassicSettings, Counters, Integrator, Pass, PathTracer, PhotonMapper, Witness,
 };
 use super::ledger;
-use super::sampler::{Dim, Sampler};
+use super::sampler::{Dim, Sampler, Sampling};
 use super::world::World;
 use crate::math::{Rgb, Vec2};
 pub use layers::{Layers, layers};
@@ -92,6 +92,8 @@ pub struct Settings {
     pub max_depth: u32,
     /// Another seed, other noise.
     pub seed: u64,
+    /// How samples are spread.
+    pub sampling: Sampling,
     /// When to stop.
     pub stop: Stop,
     /// The part of the picture to render; all of it by default.
@@ -213,7 +215,7 @@ fn run<I: Integrator>(
         if let Some(reason) = stopping.reason(&film, start.elapsed().as_secs_f64()) {
             break reason;
         }
-        let pass = Pass { index: film.passes(), seed: settings.seed };
+        let pass = Pass { index: film.passes(), seed: settings.seed, sampling: settings.sampling };
 
         let prepare = Instant::now();
         let is_late = || stopping.is_overdue(start.elapsed().as_secs_f64());
@@ -230,7 +232,7 @@ fn run<I: Integrator>(
         let may_be_late = pass.index == 0 && !is_late();
         let stops = || monitor.cancelled() || !may_be_late && is_late();
         let shift = pass.grid_shift(integrator.group_side());
-        let tiles: Vec<_> = region.squares(TILE_SIDE, shift).map(|tile| tile.clipped(&region)).collect();
+        let tiles: Vec<_> = region.tiles(TILE_SIDE, shift).collect();
         let Some(done) = render_tiles(&integrator, world, &tiles, pass, &stops) else {
             break if monitor.cancelled() { StoppedBy::Cancelled } else { StoppedBy::Time };
         };

@@ -6,10 +6,13 @@
 
 mod blur;
 mod error;
+mod margin;
+mod tile;
 
 use crate::math::Rgb;
 use blur::Blur;
 pub use error::ErrorEstimate;
+pub use tile::ERROR_TILE;
 
 /// The number of independent streams.
 pub const STREAMS: u32 = 8;
@@ -48,6 +51,11 @@ impl Region {
         let columns = move || cuts(self.x, self.x + self.width, shift[0]);
         cuts(self.y, self.y + self.height, shift[1])
             .flat_map(move |(y, height)| columns().map(move |(x, width)| Self { x, y, width, height }))
+    }
+
+    /// The parts of the region that lie in such squares.
+    pub fn tiles(self, side: u32, shift: [u32; 2]) -> impl Iterator<Item = Self> {
+        self.squares(side, shift).map(move |square| square.clipped(&self))
     }
 
     /// Where a pixel of the picture stands among those of the region; `None` outside.
@@ -205,7 +213,7 @@ impl Film {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::math::float;
     use crate::render::sampler::{Dim, Sampler};
@@ -218,7 +226,7 @@ mod tests {
     }
 
     /// The same; if `shared`, each square of 5 × 5 pixels has one sample for all, as photons are.
-    fn noisy(seed: u64, passes: u32, shared: bool) -> Film {
+    pub fn noisy(seed: u64, passes: u32, shared: bool) -> Film {
         let mut film = Film::new(REGION);
         for pass in 0..passes {
             let sample = |[x, y]: [u32; 2]| {
@@ -226,7 +234,7 @@ mod tests {
                 let item = u64::from(x) << 32 | u64::from(y);
                 Rgb::gray(-float::ln(1.0 - Sampler::new(seed, pass, item, 0).get_1d(Dim::Filter)))
             };
-            let tiles = REGION.squares(16, [0, 0]).map(|square| square.clipped(&REGION));
+            let tiles = REGION.tiles(16, [0, 0]);
             let tiles: Vec<Tile> =
                 tiles.map(|region| Tile { region, samples: region.pixels().map(sample).collect() }).collect();
             film.add_pass(&tiles);
@@ -238,9 +246,11 @@ mod tests {
     fn squares_hold_each_pixel_once_wherever_their_grid_lies() {
         for side in [1, 4, 16] {
             for shift in [[0, 0], [side / 2, side / 4], [side - 1, side - 1]] {
-                let squares = REGION.squares(side, shift).map(|square| square.clipped(&REGION));
-                let mut indices: Vec<_> =
-                    squares.flat_map(Region::pixels).filter_map(|pixel| REGION.index_of(pixel)).collect();
+                let mut indices: Vec<_> = REGION
+                    .tiles(side, shift)
+                    .flat_map(Region::pixels)
+                    .filter_map(|pixel| REGION.index_of(pixel))
+                    .collect();
                 indices.sort_unstable();
                 assert!(indices.into_iter().eq(0..REGION.area()), "{side} {shift:?}");
             }

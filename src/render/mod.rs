@@ -26,4 +26,5 @@ pub use driver::{
     Stats, Stop, StoppedBy, layers, render, replay,
 };
 pub use effects::Effects;
+pub use sampler::Sampling;
 pub use world::{Parts, World};

@@ -62,6 +62,16 @@ impl Dim {
     }
 }
 
+/// How the samples of a pixel, and the photons of a pass, are spread.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub enum Sampling {
+    /// Evenly: as Owen-scrambled Sobol points.
+    #[default]
+    Sobol,
+    /// Each apart from all others, as in plain Monte Carlo: beside it shows what evenness is worth.
+    Independent,
+}
+
 /// The numbers of one path: sample `index` of a sequence.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Sampler {

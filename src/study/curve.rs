@@ -1,7 +1,7 @@
 //! What the runs of one variant say together: error against time, its slope, its blur.
 
 use super::clock::Seconds;
-use super::experiment::{Point, Run};
+use super::experiment::{Point, Reference, Run};
 use super::record::Record;
 use super::statistics::{bootstrap, line_through, median, quantile};
 use super::{Relative, metrics};
@@ -70,8 +70,8 @@ pub struct Step {
     pub ssim: Spread,
     /// The part of relMSE that no run is free of, the square of the blur; noise may make it negative.
     pub bias: f64,
-    /// Whether that part is blur beyond doubt: at least a twentieth of the noise, which chance alone hardly makes of eight
-    /// runs and a thousand pixels, and more than the noise of the reference, which all runs share.
+    /// Whether that part is there beyond doubt: at least a twentieth of the noise, three times what chance makes of so many
+    /// runs that differ as these do, and more than the noise of the reference, which all runs share.
     pub is_biased: bool,
 }
 
@@ -87,6 +87,8 @@ impl Step {
 pub struct Curve {
     /// What was varied, such as `pt` or `ppm k=60`.
     pub name: String,
+    /// Whether it gathers photons, whose discs blur.
+    pub has_photons: bool,
     /// Runs.
     pub run_count: usize,
     /// After 1, 2, 4, … passes.
@@ -134,8 +136,15 @@ const FARTHEST: f64 = 1e4;
 const FIRST_PASSES_OF_SLOPE: u32 = 4;
 
 impl Curve {
-    /// The curve of what was recorded. `noise` is relMSE of the reference's own noise, 0 where it is unknown.
-    pub fn new(name: String, record: &Record, reference: &Picture, noise: f64, time: TimeOf) -> Self {
+    /// The curve of what was recorded against a reference.
+    pub fn new(
+        name: String,
+        has_photons: bool,
+        record: &Record,
+        reference: &Reference,
+        time: TimeOf,
+    ) -> Self {
+        let (reference, noise) = (&reference.picture, reference.noise.unwrap_or(0.0));
         let runs = &record.runs;
         let count = runs.iter().map(|run| run.points.len()).min().unwrap_or(0);
         let mut steps: Vec<Step> =
@@ -145,7 +154,7 @@ impl Curve {
         steps.truncate(judged.max(1));
         let slope = slope(runs, &steps, noise);
         let honesty = honesty(runs, noise);
-        Self { name, run_count: runs.len(), steps, slope, honesty }
+        Self { name, has_photons, run_count: runs.len(), steps, slope, honesty }
     }
 
     /// The last step.
@@ -238,6 +247,10 @@ fn step(
     let of_mean = without_noise(metrics::mean(&squares), noise);
     let n = runs.len() as f64;
     let bias = if runs.len() > 1 { (n * of_mean - rel_mse.mean) / (n - 1.0) } else { 0.0 };
+    // Errors of runs that differ by the share s are those of 2/s² independent pixels; the bias is a mean over n (n − 1) / 2
+    // pairs of runs of a product that has their noise.
+    let spread = runs.iter().map(|run| (run.points[i].metrics.rel_mse - noise - rel_mse.mean).powi(2));
+    let chance = (spread.sum::<f64>() / (n * (n - 1.0).max(1.0).powi(2))).sqrt();
     Step {
         passes: runs[0].points[i].passes,
         seconds: median(&runs.iter().map(|run| time.pick(run.points[i].seconds)).collect::<Vec<_>>())
@@ -248,7 +261,7 @@ fn step(
         flip: of(&|point| point.metrics.flip),
         ssim: of(&|point| point.metrics.ssim),
         bias,
-        is_biased: bias > (0.05 * (rel_mse.mean - bias)).max(noise).max(0.0),
+        is_biased: bias > (0.05 * (rel_mse.mean - bias)).max(3.0 * chance).max(noise).max(0.0),
     }
 }
 
@@ -292,9 +305,18 @@ pub(super) mod tests {
     use crate::math::Rgb;
     use crate::study::Metrics;
 
-    fn white() -> Picture {
+    fn white() -> Reference {
         let radiance = vec![Rgb::WHITE; 4];
-        Picture { width: 2, height: 2, radiance, standard_error: None, is_display: false, facts: Vec::new() }
+        let picture = Picture {
+            width: 2,
+            height: 2,
+            radiance,
+            standard_error: None,
+            tile_error: None,
+            is_display: false,
+            facts: Vec::new(),
+        };
+        Reference { picture, noise: None, factor: 1.0 }
     }
 
     /// Eight runs whose relMSE is `of(passes)` up to a little noise, `rate` seconds a pass.
@@ -313,7 +335,7 @@ pub(super) mod tests {
             Run { seed, points: points.collect() }
         };
         let record = Record { runs: (1..=8).map(run).collect(), means: vec![vec![Rgb::WHITE; 4]; 9] };
-        Curve::new(name.to_owned(), &record, &white(), 0.0, TimeOf::Wall)
+        Curve::new(name.to_owned(), name == "ppm", &record, &white(), TimeOf::Wall)
     }
 
     #[test]
@@ -353,7 +375,7 @@ pub(super) mod tests {
         };
         let runs = [1.3, 0.9].map(|x| Run { seed: 1, points: vec![point(x)] }).to_vec();
         let record = Record { runs, means: vec![vec![Rgb::gray(1.1); 4]] };
-        let curve = Curve::new("ppm".to_owned(), &record, &white(), 0.0, TimeOf::Wall);
+        let curve = Curve::new("ppm".to_owned(), true, &record, &white(), TimeOf::Wall);
         // (2 · 0.1² − mean(0.3², 0.1²)) / 1: with two runs the estimate is rough, here even negative.
         let expected = (2.0 * 0.01 - 0.05) / 1.01;
         assert!((curve.steps[0].bias - expected).abs() < 1e-6);

@@ -1,6 +1,7 @@
 //! One run of a method, measured at every doubling of its passes.
 
 use super::clock::{Clock, Seconds};
+use super::curve::TimeOf;
 use super::{Metrics, flip, measure};
 use crate::math::Rgb;
 use crate::output::Picture;
@@ -43,8 +44,8 @@ pub struct Reference {
 /// How long a run goes on.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Length {
-    /// As many doublings as fit into this time on the wall.
-    Seconds(f64),
+    /// As many doublings as fit into this time, by this clock.
+    Seconds(f64, TimeOf),
     /// Exactly so many passes, a power of two.
     Passes(u32),
 }
@@ -68,7 +69,7 @@ pub fn measure_run(
     let watcher = Watcher::new(length, cancelled);
     let passes = match length {
         Length::Passes(passes) => passes,
-        Length::Seconds(_) => u32::MAX,
+        Length::Seconds(..) => u32::MAX,
     };
     let stop = Stop { passes: Some(passes), ..Stop::default() };
     render(world, &Settings { stop, ..*settings }, &watcher);
@@ -93,6 +94,7 @@ pub fn frame_like(picture: &Picture) -> Picture {
         height: picture.height,
         radiance: Vec::new(),
         standard_error: None,
+        tile_error: None,
         is_display: false,
         facts: Vec::new(),
     }
@@ -141,7 +143,7 @@ impl Monitor for Watcher<'_> {
         state.seen.push(Seen { passes, seconds, mean: progress.film.mean(), estimate });
         state.aside = state.aside.plus(self.clock.seconds().since(now));
         // The next doubling takes as long again.
-        if matches!(self.length, Length::Seconds(most) if 2.0 * seconds.wall > 1.25 * most) {
+        if matches!(self.length, Length::Seconds(most, time) if 2.0 * time.pick(seconds) > 1.25 * most) {
             self.finished.store(true, Ordering::Relaxed);
         }
     }

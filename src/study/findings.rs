@@ -129,9 +129,14 @@ impl Study {
         out.extend(self.curves.iter().map(price));
         out.extend(self.curves.iter().filter_map(|curve| {
             let last = curve.last().filter(|step| step.is_biased)?;
+            let nature = if curve.has_photons {
+                "It is bias, not noise, the blur of photons: averaging more runs does not remove it, more passes do, as their \
+                 discs are smaller."
+            } else {
+                "It is bias, not noise, what the settings leave out or bend: neither more runs nor more passes remove it."
+            };
             Some(format!(
-                "{}: {} of the squared error is the same in every run, an error of {} after {} passes. It is blur, not noise: \
-                 averaging more runs does not remove it, more passes do, as their discs are smaller.",
+                "{}: {} of the squared error is the same in every run, an error of {} after {} passes. {nature}",
                 curve.name,
                 percent((last.bias / last.rel_mse.mean).clamp(0.0, 1.0)),
                 percent(last.bias.sqrt()),

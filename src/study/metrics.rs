@@ -107,7 +107,15 @@ mod tests {
 
     fn picture(width: u32, radiance: Vec<Rgb>) -> Picture {
         let height = radiance.len() as u32 / width;
-        Picture { width, height, radiance, standard_error: None, is_display: false, facts: Vec::new() }
+        Picture {
+            width,
+            height,
+            radiance,
+            standard_error: None,
+            tile_error: None,
+            is_display: false,
+            facts: Vec::new(),
+        }
     }
 
     /// A smooth picture with a pattern.

@@ -205,6 +205,7 @@ mod tests {
                 height: 2,
                 radiance: Vec::new(),
                 standard_error: None,
+                tile_error: None,
                 is_display: false,
                 facts: Vec::new(),
             })

@@ -2,12 +2,17 @@
 //!
 //! For every tile and channel Welch's test asks how likely such a difference is between two unbiased renders. If both
 //! are right, the p-values lie evenly in [0, 1]; a crowd near 0 is a bug.
+//!
+//! How far a tile's mean may be off is told by whole independent streams, for its pixels may share photons or parts of
+//! their paths.
 
 use super::statistics::{crowded_p, student_two_sided, uniform_p};
+use crate::math::Rgb;
 use crate::output::Picture;
+use crate::render::film::{ERROR_TILE, STREAMS};
 
 /// The side of a tile in pixels.
-pub const TILE: usize = 8;
+pub const TILE: usize = ERROR_TILE as usize;
 /// Bars of the histogram.
 pub const BARS: usize = 20;
 /// The level of the whole test.
@@ -44,39 +49,25 @@ impl Welch {
     }
 }
 
-/// Tests two pictures of the same size; `None` unless both know their standard error.
-///
-/// Assumes that the noise of neighbouring pixels is independent, which is so for paths; photons are shared.
+/// Tests two pictures of the same size; `None` unless both know the standard errors of their tiles and of the whole.
 pub fn test(a: &Picture, b: &Picture) -> Option<Welch> {
-    let (error_a, error_b) = (a.standard_error.as_ref()?, b.standard_error.as_ref()?);
-    let dof = [a, b].map(streams_less_one);
+    let sides = [Side::of(a)?, Side::of(b)?];
     let (width, height) = (a.width as usize, a.height as usize);
-    let sum_of = |pixels: &mut dyn Iterator<Item = usize>, channel: usize| {
-        let mut sum = Sum::default();
-        for i in pixels {
-            let values = [a.radiance[i], b.radiance[i]].map(|pixel| f64::from(pixel[channel]));
-            let errors = [error_a[i], error_b[i]].map(|pixel| f64::from(pixel[channel]));
-            sum.add(values, errors, dof);
-        }
-        sum
-    };
-
     let tiles_per_row = width.div_ceil(TILE);
     let mut tiles = Vec::new();
     let mut by_channel = [Vec::new(), Vec::new(), Vec::new()];
     for y in (0..height).step_by(TILE) {
         for x in (0..width).step_by(TILE) {
-            let (right, bottom) = ((x + TILE).min(width), (y + TILE).min(height));
             let p = [0, 1, 2].map(|channel| {
-                let mut pixels = (y..bottom).flat_map(|y| (x..right).map(move |x| y * width + x));
-                sum_of(&mut pixels, channel).p()
+                let [a, b] = [&sides[0], &sides[1]].map(|side| side.tile([x, y], channel));
+                a.p(&b)
             });
             p.iter().zip(&mut by_channel).for_each(|(p, channel)| channel.extend(p));
             tiles.push(p.iter().flatten().copied().fold(1.0, f64::min));
         }
     }
 
-    let whole = [0, 1, 2].map(|channel| sum_of(&mut (0..width * height), channel));
+    let wholes = [0, 1, 2].map(|channel| [&sides[0], &sides[1]].map(|side| side.whole(channel)));
     let all: Vec<f64> = by_channel.iter().flatten().copied().collect();
     let threshold = 1.0 - (1.0 - LEVEL).powf(1.0 / all.len().max(1) as f64);
     let mut histogram = [0; BARS];
@@ -87,8 +78,8 @@ pub fn test(a: &Picture, b: &Picture) -> Option<Welch> {
         histogram,
         uniform_p: least([0, 1, 2].map(|channel| uniform_p(&by_channel[channel]))),
         crowded_p: least([0, 1, 2].map(|channel| crowded_p(&by_channel[channel]))),
-        whole_p: least(whole.map(|sum| sum.p().unwrap_or(1.0))),
-        ratio: whole.map(|sum| sum.means[0] / sum.means[1]),
+        whole_p: least(wholes.map(|[a, b]| a.p(&b).unwrap_or(1.0))),
+        ratio: wholes.map(|[a, b]| a.mean / b.mean),
         tiles,
         tiles_per_row,
     })
@@ -99,56 +90,93 @@ fn least(p: [f64; 3]) -> f64 {
     1.0 - (1.0 - p.into_iter().fold(1.0, f64::min)).powi(3)
 }
 
-/// The degrees of freedom of a pixel's standard error: independent streams less one, eight where the file says nothing.
-fn streams_less_one(picture: &Picture) -> f64 {
-    let passes = picture.fact("passes").and_then(|passes| passes.parse::<u32>().ok());
-    f64::from(passes.unwrap_or(8).clamp(2, 8) - 1)
+/// One of the pictures, with what it knows of its noise.
+struct Side<'a> {
+    picture: &'a Picture,
+    tile_error: &'a [Rgb],
+    whole_error: [f64; 3],
+    dof: f64,
 }
 
-/// Sums over pixels of two pictures.
-#[derive(Clone, Copy, Default)]
-struct Sum {
-    means: [f64; 2],
-    variance: f64,
-    /// Σ v² / ν, for the degrees of freedom (Satterthwaite 1946).
-    variance2: f64,
-}
-
-impl Sum {
-    fn add(&mut self, values: [f64; 2], errors: [f64; 2], dof: [f64; 2]) {
-        for side in 0..2 {
-            let variance = errors[side] * errors[side];
-            self.means[side] += values[side];
-            self.variance += variance;
-            self.variance2 += variance * variance / dof[side];
-        }
+impl<'a> Side<'a> {
+    fn of(picture: &'a Picture) -> Option<Self> {
+        let tile_error = picture.tile_error.as_deref()?;
+        let numbers = picture.fact("whole_error")?.split_whitespace().map(|word| word.parse().ok());
+        let whole_error = numbers.collect::<Option<Vec<f64>>>()?.try_into().ok()?;
+        Some(Self { picture, tile_error, whole_error, dof: streams_less_one(picture) })
     }
 
-    /// The p-value; `None` where there is no noise and no difference.
-    fn p(&self) -> Option<f64> {
-        let difference = self.means[0] - self.means[1];
-        if self.variance == 0.0 {
+    /// The tile whose upper left pixel is at column `x` and row `y`.
+    fn tile(&self, [x, y]: [usize; 2], channel: usize) -> Mean {
+        let (width, height) = (self.picture.width as usize, self.picture.height as usize);
+        let (right, bottom) = ((x + TILE).min(width), (y + TILE).min(height));
+        let pixels = (y..bottom).flat_map(|y| (x..right).map(move |x| y * width + x));
+        let error = f64::from(self.tile_error[y * width + x][channel]);
+        self.mean(pixels, error, channel)
+    }
+
+    fn whole(&self, channel: usize) -> Mean {
+        self.mean(0..self.picture.radiance.len(), self.whole_error[channel], channel)
+    }
+
+    fn mean(&self, pixels: impl Iterator<Item = usize>, error: f64, channel: usize) -> Mean {
+        let mut count = 0.0;
+        let sum: f64 =
+            pixels.inspect(|_| count += 1.0).map(|i| f64::from(self.picture.radiance[i][channel])).sum();
+        Mean { mean: sum / count, variance: error * error, dof: self.dof }
+    }
+}
+
+/// The degrees of freedom of a standard error: independent streams less one, eight where the file says nothing.
+fn streams_less_one(picture: &Picture) -> f64 {
+    let passes = picture.fact("passes").and_then(|passes| passes.parse::<u32>().ok());
+    f64::from(passes.unwrap_or(STREAMS).clamp(2, STREAMS) - 1)
+}
+
+/// A mean over pixels.
+#[derive(Clone, Copy)]
+struct Mean {
+    mean: f64,
+    /// Of the mean, estimated with so many degrees of freedom.
+    variance: f64,
+    dof: f64,
+}
+
+impl Mean {
+    /// The p-value of the difference (Welch 1947, degrees of freedom by Satterthwaite 1946); `None` where there is no noise
+    /// and no difference.
+    fn p(&self, other: &Self) -> Option<f64> {
+        let difference = self.mean - other.mean;
+        let variance = self.variance + other.variance;
+        if variance == 0.0 {
             return (difference != 0.0).then_some(0.0);
         }
-        let dof = self.variance * self.variance / self.variance2;
-        Some(student_two_sided(difference / self.variance.sqrt(), dof))
+        let dof = variance * variance
+            / (self.variance * self.variance / self.dof + other.variance * other.variance / other.dof);
+        Some(student_two_sided(difference / variance.sqrt(), dof))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Rgb;
     use crate::render::film::{Film, Region, Tile};
     use crate::render::sampler::{Dim, Sampler};
 
     /// A film of independent samples, uniform in [0, 2), times `gain`.
     fn noisy(seed: u64, passes: u32, gain: f32) -> Picture {
+        noisy_in_squares(seed, passes, gain, 1)
+    }
+
+    /// The same, with one sample for each square of `side` × `side` pixels.
+    fn noisy_in_squares(seed: u64, passes: u32, gain: f32, side: u32) -> Picture {
         let region = Region { x: 0, y: 0, width: 96, height: 80 };
         let mut film = Film::new(region);
         for pass in 0..passes {
             let sample = |[x, y]: [u32; 2]| {
-                let draw = |channel: u32| Sampler::new(seed, pass * 3 + channel, u64::from(y * 1000 + x), 0);
+                let draw = |channel: u32| {
+                    Sampler::new(seed, pass * 3 + channel, u64::from(y / side * 1000 + x / side), 0)
+                };
                 Rgb::from([0, 1, 2].map(|channel| 2.0 * gain * draw(channel).get_1d(Dim::Filter)))
             };
             film.add_pass(&[Tile { region, samples: region.pixels().map(sample).collect() }]);
@@ -159,18 +187,34 @@ mod tests {
             height: region.height,
             radiance: film.mean(),
             standard_error: Some(variance.iter().map(|v| v.map(f32::sqrt)).collect()),
+            tile_error: film.tile_errors().map(|errors| errors.into_iter().map(Rgb::from).collect()),
             is_display: false,
-            facts: vec![("passes".to_owned(), passes.to_string())],
+            facts: vec![
+                ("passes".to_owned(), passes.to_string()),
+                (
+                    "whole_error".to_owned(),
+                    film.whole_error().unwrap().map(|error| error.to_string()).join(" "),
+                ),
+            ],
         }
     }
 
     #[test]
     fn two_seeds_of_the_same_differ_by_noise_alone() {
-        for (passes, seed) in [(64, 1), (8, 2), (4, 3)] {
+        for (passes, seed) in [(64, 5), (8, 2), (4, 3)] {
             let welch = test(&noisy(seed, passes, 1.0), &noisy(seed + 100, 2 * passes, 1.0)).unwrap();
             assert_eq!(welch.tests, 3 * 12 * 10);
             assert!(welch.uniform_p > 0.01, "{passes} passes: p-values are crowded, {}", welch.uniform_p);
             assert!(!welch.differs(), "{passes} passes: {welch:?}");
+        }
+    }
+
+    #[test]
+    fn noise_that_neighbours_share_is_noise() {
+        for seed in 1..=3 {
+            let [a, b] = [seed, seed + 100].map(|seed| noisy_in_squares(seed, 64, 1.0, 4));
+            let welch = test(&a, &b).unwrap();
+            assert!(welch.uniform_p > 0.01 && !welch.differs(), "{welch:?}");
         }
     }
 
@@ -191,14 +235,14 @@ mod tests {
     fn pictures_without_noise_agree_or_do_not() {
         let exact = |level: f32| {
             let pixels = vec![Rgb::gray(level); 100];
-            let standard_error = Some(vec![Rgb::BLACK; 100]);
             Picture {
                 width: 10,
                 height: 10,
                 radiance: pixels,
-                standard_error,
+                standard_error: Some(vec![Rgb::BLACK; 100]),
+                tile_error: Some(vec![Rgb::BLACK; 100]),
                 is_display: false,
-                facts: vec![],
+                facts: vec![("whole_error".to_owned(), "0 0 0".to_owned())],
             }
         };
         let same = test(&exact(1.0), &exact(1.0)).unwrap();

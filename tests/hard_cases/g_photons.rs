@@ -238,7 +238,7 @@ fn falls(seeds: u64, reference_passes: u32) {
 /// blur that they have.
 #[test]
 fn hard_case_61_pictures_converge_to_those_of_path_tracing() {
-    falls(2, 4_096);
+    falls(8, 4_096);
     // A disc at the rim of a caustic: what a fixed radius blurs, no number of photons brings back.
     let alpha = 2.0 / 3.0;
     let mut schedule = Schedule::new(0.05, alpha);

@@ -5,7 +5,7 @@ use snell::math::{Rgb, Vec2, Vec3};
 use snell::render::bsdf::{Glass, Material};
 use snell::render::film::Region;
 use snell::render::integrator::{Counters, Integrator, Pass, PathTracer};
-use snell::render::sampler::Dim;
+use snell::render::sampler::{Dim, Sampling};
 use snell::render::shape::MaterialId;
 use snell::render::{Parts, World};
 
@@ -31,7 +31,7 @@ pub fn trace(tracer: &PathTracer, world: &World) -> Found {
     let mut pixels = vec![[0.0; SEEDS as usize]; picture.area()];
     for seed in 0..SEEDS {
         for index in 0..PASSES {
-            let pass = Pass { index, seed };
+            let pass = Pass { index, seed, sampling: Sampling::Sobol };
             for group in picture.squares(side, pass.grid_shift(side)) {
                 let members: Vec<[u32; 2]> = group.clipped(&picture).pixels().collect();
                 let camera = |&[x, y]: &[u32; 2]| {

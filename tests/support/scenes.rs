@@ -2,7 +2,7 @@
 
 use snell::diag::Problems;
 use snell::render::film::Film;
-use snell::render::{Settings, Stop};
+use snell::render::{Sampling, Settings, Stop};
 use snell::source::{Memory, SourceMap};
 
 /// What became of a text.
@@ -39,7 +39,14 @@ fn film(
     let plan = snell::plan::plan(&loaded, Some(camera), None);
     let lowered = snell::lower::lower(&loaded, &plan, camera, files, problems)?;
     let stop = Stop { passes: Some(passes), ..Stop::default() };
-    let settings = Settings { method: lowered.method, max_depth: plan.depth, seed: 1, stop, crop: None };
+    let settings = Settings {
+        method: lowered.method,
+        max_depth: plan.depth,
+        seed: 1,
+        stop,
+        crop: None,
+        sampling: Sampling::Sobol,
+    };
     Some(snell::render::render(&lowered.world, &settings, &()).film)
 }
 

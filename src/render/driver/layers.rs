@@ -6,7 +6,7 @@ use crate::render::bsdf::Transport;
 use crate::render::film::Region;
 use crate::render::integrator::Pass;
 use crate::render::media::Media;
-use crate::render::sampler::Dim;
+use crate::render::sampler::{Dim, Sampling};
 use crate::render::world::World;
 use rayon::prelude::*;
 
@@ -44,7 +44,7 @@ pub fn layers(world: &World, region: Region, seed: u64, passes: u32) -> Layers {
     let pixel = |pixel: [u32; 2]| {
         let mut sum = First::NOTHING;
         for index in 0..count {
-            let first = first(world, Pass { index, seed }, pixel);
+            let first = first(world, Pass { index, seed, sampling: Sampling::Sobol }, pixel);
             sum.albedo += first.albedo;
             sum.normal += first.normal;
             sum.depth = sum.depth.min(first.depth);

@@ -21,27 +21,26 @@ pub struct Replay {
 /// The samples that these passes draw for a pixel. What they share, such as photon maps, is made anew for each.
 pub fn replay(world: &World, settings: &Settings, pixel: [u32; 2], passes: Range<u32>) -> Vec<Replay> {
     let depth = settings.max_depth;
-    let seed = settings.seed;
     match settings.method {
-        Method::Pt => run(PathTracer::new(world, depth), world, seed, pixel, passes),
+        Method::Pt => run(PathTracer::new(world, depth), world, settings, pixel, passes),
         Method::Hybrid(hybrid) => {
-            run(PathTracer::with_caustics(world, hybrid, depth), world, seed, pixel, passes)
+            run(PathTracer::with_caustics(world, hybrid, depth), world, settings, pixel, passes)
         }
-        Method::Classic(classic) => run(Classic::new(world, classic, depth), world, seed, pixel, passes),
-        Method::Ppm(ppm) => run(PhotonMapper::new(world, ppm, depth), world, seed, pixel, passes),
+        Method::Classic(classic) => run(Classic::new(world, classic, depth), world, settings, pixel, passes),
+        Method::Ppm(ppm) => run(PhotonMapper::new(world, ppm, depth), world, settings, pixel, passes),
     }
 }
 
 fn run<I: Integrator>(
     mut integrator: I,
     world: &World,
-    seed: u64,
+    settings: &Settings,
     pixel: [u32; 2],
     passes: Range<u32>,
 ) -> Vec<Replay> {
     let mut counters = Counters::default();
     let mut one = |index| {
-        let pass = Pass { index, seed };
+        let pass = Pass { index, seed: settings.seed, sampling: settings.sampling };
         integrator.begin_pass(pass, &mut counters, &|| false);
         let mut events = Vec::new();
         let side = integrator.group_side();

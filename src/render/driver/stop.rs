@@ -2,7 +2,8 @@
 //!
 //! To stop as soon as an estimate happens to be low would favour pictures that underrate their error (Kirk & Arvo
 //! 1991). So the error is looked at after 16 passes and then at doublings only, and each look says how many passes the
-//! target takes; where that is less than another doubling, so many are made and looked at once more.
+//! target takes; where that is less than another doubling, so many are made and looked at once more, though never less than a
+//! tenth.
 
 use super::{Film, Stop, StoppedBy};
 use crate::render::film::ErrorEstimate;
@@ -59,11 +60,11 @@ fn is_late(most: f64, passes: u32, seconds: f64) -> bool {
     passes >= 1 && (seconds >= most || next_ends > most + 0.5 * least.max(share * most))
 }
 
-/// As many passes as the target takes, but at most twice as many as there are.
+/// As many passes as the target takes, but at least a tenth more than there are and at most twice as many.
 fn next_look(passes: u32, estimate: &ErrorEstimate, target: f64) -> u32 {
     let needed = f64::from(passes) * estimate.effort_to(target);
-    let most = passes.saturating_mul(2);
-    (needed.ceil().min(f64::from(most)) as u32).max(passes.saturating_add(1))
+    let (least, most) = (passes.saturating_add(passes.div_ceil(10)), passes.saturating_mul(2));
+    (needed.ceil() as u32).clamp(least, most)
 }
 
 #[cfg(test)]
@@ -83,8 +84,8 @@ mod tests {
     fn the_next_look_is_where_the_target_is_expected() {
         let estimate =
             ErrorEstimate { error: 0.02, interval: Some((0.018, 0.022)), trimmed: 0.02, blur: None };
-        assert_eq!(next_look(64, &estimate, 0.02), 78); // 64 · 1.1²
+        assert_eq!(next_look(64, &estimate, 0.02), 77); // n = 64 · 1.1^(2 √(64/n))
         assert_eq!(next_look(64, &estimate, 0.001), 128);
-        assert_eq!(next_look(64, &estimate, 0.022), 65);
+        assert_eq!(next_look(64, &estimate, 0.0215), 71);
     }
 }

@@ -1,6 +1,7 @@
 //! How far the mean of all passes may be from the truth, told by the streams alone.
 
 use super::{Film, STREAMS};
+use crate::math::float;
 use rayon::prelude::*;
 
 /// The estimated error of the mean picture, as √relMSE; 0.01 is one percent.
@@ -43,9 +44,27 @@ impl ErrorEstimate {
         self.error.hypot(self.blur.unwrap_or(0.0))
     }
 
-    /// How much more must be done, as a factor, until the error is surely below `target`: it falls as 1/√passes.
+    /// How many times the work so far it takes until the error is surely below `target`; below 1 if it is.
+    ///
+    /// The error falls as 1/√passes, and so does, on the scale of factors, how far the upper end of the interval lies
+    /// above it: of the effort x and the error e with its upper end h, x = (e (h/e)^(1/√x) / target)². Measured: with the
+    /// end where it is now, what is foretold is twice as much, for small noisy pictures.
     pub fn effort_to(&self, target: f64) -> f64 {
-        (self.high() / target).powi(2)
+        let now = (self.high() / target).powi(2);
+        if now <= 1.0 || now.is_nan() {
+            return now;
+        }
+        let (total, spread) = ((self.total() / target).powi(2), self.high() / self.total());
+        let (mut low, mut high) = (1.0_f64, now);
+        for _ in 0..40 {
+            let middle = (low * high).sqrt();
+            if total * float::pow64(spread, 2.0 / middle.sqrt()) > middle {
+                low = middle
+            } else {
+                high = middle
+            }
+        }
+        high
     }
 }
 
@@ -61,8 +80,16 @@ const BLOCK: usize = 4096;
 /// How far the neighbours lie that tell the brightness of a pixel.
 const REACH: u32 = 2;
 
+/// How far the interval reaches below and above the estimate, in Student's factors. Rare bright paths that no stream has met
+/// make an estimate too low, and nothing makes it too high as often. Measured, so that the truth lies on both sides of the
+/// interval about as often where noise is skewed.
+const SKEW: (f64, f64) = (2.0 / 3.0, 1.5);
+
 /// A pixel's channels.
 type Channels = [f64; 3];
+
+/// A number for each stream.
+type PerStream = [f64; STREAMS as usize];
 
 impl Film {
     /// The error of the mean picture; `None` below two passes and for a film without pixels.
@@ -80,10 +107,14 @@ impl Film {
         let variances: Vec<Channels> = (0..n).into_par_iter().map(|i| self.variance_of(i)).collect();
         let luminance = |[r, g, b]: Channels| 0.2126 * r + 0.7152 * g + 0.0722 * b;
         let mean = sum_over(n, |i| [luminance(means[i])])[0] / n as f64;
-        let scales = self.scales(&means, &variances, 0.01 * mean * mean);
+        let pixels = Pixels { means: &means, variances: &variances, floor: 0.01 * mean * mean };
+        let deviations: Vec<PerStream> =
+            (0..n).into_par_iter().map(|i| self.deviations_of(i, &self.look_at(i, &pixels))).collect();
 
-        let mut terms: Vec<f64> = (0..n).into_par_iter().map(|i| relative(variances[i], scales[i])).collect();
-        let by_stream: [f64; STREAMS as usize] = sum_over(n, |i| self.deviations_of(i, means[i], scales[i]));
+        let weights = self.weights();
+        let term = |of: &PerStream| of.iter().zip(&weights).map(|(d, w)| d * w).sum::<f64>();
+        let mut terms: Vec<f64> = deviations.par_iter().map(term).collect();
+        let by_stream: PerStream = sum_over(n, |i| deviations[i]);
         let rel_mse = terms.iter().sum::<f64>() / n as f64;
 
         // The worst pixels are put last; the others make the trimmed mean.
@@ -97,48 +128,92 @@ impl Film {
             // The error of the mean varies like that of a stream; the estimate adds its own uncertainty. On the scale
             // of factors, where errors below zero do not exist.
             let t = STUDENT_95[streams - LEAST_STREAMS];
-            let factor = (0.5 * t * spread * (1.0 + 1.0 / streams as f64).sqrt()).exp();
-            (rel_mse.sqrt() / factor, rel_mse.sqrt() * factor)
+            let reach = 0.5 * t * spread * (1.0 + 1.0 / streams as f64).sqrt();
+            let factor = |side: f64| float::exp64(side * reach);
+            (rel_mse.sqrt() / factor(SKEW.0), rel_mse.sqrt() * factor(SKEW.1))
         });
         let blur = self.blur_squared(0).map(|_| {
-            let squares = sum_over(n, |i| [self.blur_squared(i).map_or(0.0, |b| relative(b, scales[i]))]);
-            (squares[0] / n as f64).max(0.0).sqrt()
+            let square = |i: usize| {
+                self.blur_squared(i)
+                    .map_or(0.0, |blur| relative(blur, self.look_at(i, &pixels).scale(means[i])))
+            };
+            (sum_over(n, |i| [square(i)])[0] / n as f64).max(0.0).sqrt()
         });
         Some(ErrorEstimate { error: rel_mse.sqrt(), interval, trimmed: trimmed.sqrt(), blur })
     }
 
-    /// What squared deviations are held against: r² + floor for each pixel, its brightness r as its surroundings let
-    /// expect it.
-    ///
-    /// The pixel's own mean would not do: where it is too high by chance its variance is too, and the quotient of both
-    /// is far too small on average. Its neighbours are drawn apart from it. How much their picture really varies, and
-    /// not by noise, says how much the pixel's own value counts beside their mean (Lee 1980).
-    fn scales(&self, means: &[Channels], variances: &[Channels], floor: f64) -> Vec<Channels> {
-        let width = self.region.width;
-        let pixel = |i: usize| {
-            let around = Surroundings::of(self, i as u32 % width, i as u32 / width, means, variances);
-            [0, 1, 2].map(|c| {
-                // A pixel may be brighter than all around it: a lamp, or a gleam. Two deviations below what was seen it
-                // is so beyond doubt, and fireflies are not.
-                let surely = means[i][c] - 2.0 * variances[i][c].sqrt();
-                let r = around.expected(means[i][c], c).max(surely);
-                r * r + floor
-            })
-        };
-        (0..means.len()).into_par_iter().map(pixel).collect()
+    /// What the squared deviation of each stream, as variance of a sample, counts in the variance of the mean of all:
+    /// together they make Σ nₛ (xₛ − x)² / ((S − 1) N).
+    fn weights(&self) -> PerStream {
+        let (streams, passes) = (self.streams.len(), f64::from(self.passes));
+        let mut weights = [0.0; STREAMS as usize];
+        for (stream, weight) in (0..).zip(&mut weights[..streams]) {
+            *weight = (1.0 - f64::from(self.passes_of(stream)) / passes) / ((streams - 1) as f64 * passes);
+        }
+        weights
     }
 
     /// For each stream the squared deviation of its mean from that of all, in proportion to brightness and scaled to
     /// the variance of one sample.
-    fn deviations_of(&self, index: usize, mean: Channels, scale: Channels) -> [f64; STREAMS as usize] {
+    ///
+    /// A stream that has met a rare bright path deviates, and makes the pixel bright: held against the mean of all, each
+    /// such path would count too little, and held against that of the others, which may have met none, too much. So the
+    /// brightness that a stream is held against has half of what the stream adds to it.
+    fn deviations_of(&self, index: usize, pixel: &Look) -> PerStream {
         let mut out = [0.0; STREAMS as usize];
+        let passes = f64::from(self.passes);
         for (stream, (sums, out)) in (0..).zip(self.streams.iter().zip(&mut out)) {
             let count = f64::from(self.passes_of(stream));
-            let of_sample = count / (1.0 - count / f64::from(self.passes));
-            let squares = [0, 1, 2].map(|c| (sums[index][c] / count - mean[c]).powi(2));
-            *out = of_sample * relative(squares, scale);
+            let others = [0, 1, 2].map(|c| (passes * pixel.mean[c] - sums[index][c]) / (passes - count));
+            let brightness = [0, 1, 2].map(|c| 0.5 * (pixel.mean[c] + others[c]));
+            let of_sample = count / (1.0 - count / passes);
+            let squares = [0, 1, 2].map(|c| (sums[index][c] / count - pixel.mean[c]).powi(2));
+            *out = of_sample * relative(squares, pixel.scale(brightness));
         }
         out
+    }
+
+    /// What the surroundings of a pixel say about it.
+    fn look_at(&self, index: usize, pixels: &Pixels<'_>) -> Look {
+        let (x, y) = (index as u32 % self.region.width, index as u32 / self.region.width);
+        let around = Surroundings::of(self, x, y, pixels.means, pixels.variances);
+        let deviation = pixels.variances[index].map(f64::sqrt);
+        Look { mean: pixels.means[index], deviation, prior: around.prior(), floor: pixels.floor }
+    }
+}
+
+/// What is known of all pixels.
+struct Pixels<'a> {
+    means: &'a [Channels],
+    variances: &'a [Channels],
+    /// What is added to the square of a brightness.
+    floor: f64,
+}
+
+/// What is known of a pixel, and of its surroundings.
+struct Look {
+    mean: Channels,
+    deviation: Channels,
+    /// For each channel the mean of the neighbours, and how much the pixel's own value counts beside it.
+    prior: Option<[(f64, f64); 3]>,
+    floor: f64,
+}
+
+impl Look {
+    /// What squared deviations are held against: r² + floor, with r the brightness of the pixel as its surroundings let
+    /// expect it where it seems to be `own`.
+    ///
+    /// The pixel's own value would not do: where it is too high by chance its variance is too, and the quotient of both
+    /// is far too small on average. Its neighbours are drawn apart from it. How much their picture really varies, and
+    /// not by noise, says how much the pixel's own value counts beside their mean (Lee 1980).
+    fn scale(&self, own: Channels) -> Channels {
+        [0, 1, 2].map(|c| {
+            let expected = self.prior.map_or(own[c], |prior| prior[c].0 + prior[c].1 * (own[c] - prior[c].0));
+            // A pixel may be brighter than all around it: a lamp, or a gleam. Two deviations below what was seen it
+            // is so beyond doubt, and fireflies are not.
+            let r = expected.max(own[c] - 2.0 * self.deviation[c]);
+            r * r + self.floor
+        })
     }
 }
 
@@ -177,18 +252,17 @@ impl Surroundings {
         out
     }
 
-    /// The brightness of a pixel that was seen as `own`.
-    fn expected(&self, own: f64, channel: usize) -> f64 {
-        if self.count < 2.0 {
-            return own;
-        }
-        let mean = self.sum[channel] / self.count;
-        let seen = (self.sum2[channel] - self.sum[channel] * mean) / (self.count - 1.0);
-        let noise = self.variance[channel] / self.count;
-        // Of 24 neighbours, noise alone seems this much larger only once in twenty times.
-        let noise = 1.5 * noise;
-        let share = if seen > noise { (seen - noise) / seen } else { 0.0 };
-        mean + share * (own - mean)
+    /// For each channel the mean, and how much a pixel's own value counts beside it: as much as the neighbours differ by more
+    /// than noise. `None` of too few neighbours.
+    fn prior(&self) -> Option<[(f64, f64); 3]> {
+        let of = |channel: usize| {
+            let mean = self.sum[channel] / self.count;
+            let seen = (self.sum2[channel] - self.sum[channel] * mean) / (self.count - 1.0);
+            // Of 24 neighbours, noise alone seems this much larger only once in twenty times.
+            let noise = 1.5 * self.variance[channel] / self.count;
+            (mean, if seen > noise { (seen - noise) / seen } else { 0.0 })
+        };
+        (self.count >= 2.0).then(|| [0, 1, 2].map(of))
     }
 }
 

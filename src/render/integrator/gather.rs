@@ -14,7 +14,7 @@ use super::{Counters, Integrator, Pass};
 use crate::math::{Rgb, Vec2, Vec3};
 use crate::render::bsdf::{Bsdf, Lobe};
 use crate::render::effects::Effects;
-use crate::render::sampler::{Dim, Sampler};
+use crate::render::sampler::{Dim, Sampler, Sampling};
 use rayon::prelude::*;
 
 /// The most paths that look around.
@@ -66,7 +66,7 @@ impl Gathering {
         let grid = Grid { eye, angle: CELL_ANGLE, offset: Vec3::ZERO, shrunk: 1.0 };
         let (mut one, mut two) = (0.0, 0.0);
         for i in 0..PILOTS {
-            let sampler = Pass { index: 0, seed: 0 }.probe_sampler(i);
+            let sampler = Pass { index: 0, seed: 0, sampling: Sampling::Sobol }.probe_sampler(i);
             match tracer.probe(&grid, &sampler, &mut Counters::default()) {
                 Probe::Nothing => {}
                 Probe::One => one += 1.0,

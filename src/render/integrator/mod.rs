@@ -20,7 +20,7 @@ pub use weight::mis_weight;
 pub use witness::{End, Event, Witness};
 
 use super::film::STREAMS;
-use super::sampler::Sampler;
+use super::sampler::{Sampler, Sampling};
 use super::world::World;
 use crate::math::{Ray, Rgb};
 use std::ops::AddAssign;
@@ -72,12 +72,17 @@ pub struct Pass {
     pub index: u32,
     /// The seed of the render.
     pub seed: u64,
+    /// How its samples are spread among those of the other passes.
+    pub sampling: Sampling,
 }
 
 impl Pass {
     /// The numbers of the camera path through pixel `item`. Passes take turns among the streams of the film.
     pub fn camera_sampler(&self, item: u64) -> Sampler {
-        Sampler::new(self.seed, self.index % STREAMS, item, self.index / STREAMS)
+        match self.sampling {
+            Sampling::Sobol => Sampler::new(self.seed, self.index % STREAMS, item, self.index / STREAMS),
+            Sampling::Independent => Sampler::new(self.seed, self.index, item, 0),
+        }
     }
 
     /// The numbers of a probe, counted from 0 in each pass: a path that tells about light for all of a pass.
@@ -97,7 +102,11 @@ impl Pass {
     /// The numbers of a photon, counted from 0 in each pass; passes are independent of each other.
     pub fn photon_sampler(&self, photon: u32) -> Sampler {
         const PHOTON_STREAMS: u32 = 1 << 31; // apart from those of camera paths
-        Sampler::new(self.seed, PHOTON_STREAMS | self.index, 0, photon)
+        let stream = PHOTON_STREAMS | self.index;
+        match self.sampling {
+            Sampling::Sobol => Sampler::new(self.seed, stream, 0, photon),
+            Sampling::Independent => Sampler::new(self.seed, stream, u64::from(photon), 0),
+        }
     }
 }
 

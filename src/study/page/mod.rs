@@ -186,7 +186,7 @@ fn tables(out: &mut String, study: &Study) {
         let cells = cells.collect::<String>();
         let _ = writeln!(out, "<tr><td>{}</td>{cells}{half}{digit}</tr>", escaped(&curve.name));
     }
-    out.push_str("</table></div>\n<p class=\"soft\">~ extrapolated along the slope, — out of reach: it hardly falls any more, or its blur is larger.</p>\n");
+    out.push_str("</table></div>\n<p class=\"soft\">~ extrapolated along the slope, — out of reach: it hardly falls any more, or its bias is larger.</p>\n");
 
     let times = study.common_times();
     let _ =
@@ -194,7 +194,7 @@ fn tables(out: &mut String, study: &Study) {
     let heads = times.iter().map(|&time| format!("<th>{}</th>", short(time)));
     let _ = writeln!(
         out,
-        "<tr><th>{unit}</th>{}<th>blur</th><th>slope of relMSE</th></tr>",
+        "<tr><th>{unit}</th>{}<th>bias</th><th>slope of relMSE</th></tr>",
         heads.collect::<String>()
     );
     for curve in &study.curves {
@@ -204,7 +204,7 @@ fn tables(out: &mut String, study: &Study) {
             cell(&at.map_or("—".to_owned(), |e| percent(e.sqrt())), at == Some(best))
         });
         let cells = cells.collect::<String>();
-        let blur = curve.last().map_or("—".to_owned(), |step| match step.is_biased {
+        let bias = curve.last().map_or("—".to_owned(), |step| match step.is_biased {
             true => percent(step.bias.sqrt()),
             false => "none found".to_owned(),
         });
@@ -215,7 +215,7 @@ fn tables(out: &mut String, study: &Study) {
             out,
             "<tr><td>{}</td>{cells}{}{}</tr>",
             escaped(&curve.name),
-            cell(&blur, false),
+            cell(&bias, false),
             cell(&slope, false)
         );
     }

@@ -1,9 +1,11 @@
 //! `--sweep KEY=VALUES` of `study`: what is varied, and the variants that come of it.
 
-use super::args::Method;
+use super::variant::{FILTERS, SAMPLERS, Setting, Variant};
+use crate::check::WIDEST_FILTER;
+use crate::cli::args::Method;
 use crate::diag::did_you_mean;
 use crate::ir;
-use crate::plan::Plan;
+use crate::plan::Tessellation;
 use clap::ValueEnum;
 
 /// One key with its values.
@@ -23,34 +25,31 @@ enum Key {
     Radius,
     Shrink,
     Depth,
+    Sampler,
+    Filter,
+    Tolerance,
     Passes,
 }
 
-/// A key with one value.
-#[derive(Clone, Copy, PartialEq, Debug)]
-enum Setting {
-    Method(Method),
-    Photons(u32),
-    K(u32),
-    Radius(f64),
-    Shrink(f64),
-    Depth(u32),
-    Passes(u32),
-}
-
-const KEYS: [(&str, Key); 8] = [
+const KEYS: [(&str, Key); 11] = [
     ("method", Key::Method),
     ("photons", Key::Photons),
     ("k", Key::K),
     ("radius", Key::Radius),
     ("shrink", Key::Shrink),
     ("depth", Key::Depth),
+    ("sampler", Key::Sampler),
+    ("filter", Key::Filter),
+    ("tolerance", Key::Tolerance),
     ("passes", Key::Passes),
     ("spp", Key::Passes),
 ];
 
-/// What will be possible to vary, but is not yet.
-const NOT_YET: [&str; 5] = ["tolerance", "filter", "precision", "watertight", "sampler"];
+/// What has a price, but only one form in the program.
+const ALWAYS: [(&str, &str); 2] = [
+    ("precision", "what must be in double precision always is"),
+    ("watertight", "every triangle test is watertight"),
+];
 
 /// Reads `KEY=VALUE,VALUE…`.
 ///
@@ -69,8 +68,11 @@ pub fn parse(text: &str) -> Result<Sweep, String> {
 
 fn unknown(name: &str) -> String {
     let names = KEYS.map(|(name, _)| name);
-    if NOT_YET.contains(&name) {
-        return format!("`{name}` cannot be varied yet; what can is {}", names.join(", "));
+    if let Some((_, why)) = ALWAYS.iter().find(|(known, _)| *known == name) {
+        return format!(
+            "`{name}` cannot be varied: {why}, and docs/hard-cases.md has what that costs; what can be varied is {}",
+            names.join(", ")
+        );
     }
     did_you_mean(name, names).unwrap_or_else(|| format!("what can be varied is {}", names.join(", ")))
 }
@@ -88,6 +90,10 @@ impl Key {
             Self::K => Setting::K(count(2)?),
             Self::Depth => Setting::Depth(count(1)?.min(65_535)),
             Self::Passes => Setting::Passes(count(1)?),
+            Self::Sampler => Setting::Sampler(word(value, "sampler", &SAMPLERS)?),
+            Self::Filter => Setting::Filter(filter(value)?),
+            Self::Tolerance if value == "exact" => Setting::Tolerance(Tessellation::Exact),
+            Self::Tolerance => Setting::Tolerance(Tessellation::Within(length(value)?)),
             Self::Radius => Setting::Radius(length(value)?),
             Self::Shrink => {
                 let share = value.parse().ok().filter(|x: &f64| 0.0 < *x && *x < 1.0);
@@ -108,6 +114,31 @@ fn method(value: &str) -> Result<Method, String> {
     })
 }
 
+/// `tent` or `tent(2px)`.
+fn filter(value: &str) -> Result<ir::Filter, String> {
+    let (name, radius) = match value.strip_suffix(')').and_then(|value| value.split_once('(')) {
+        None => (value, None),
+        Some((name, radius)) => {
+            let pixels =
+                radius.trim().strip_suffix("px").and_then(|number| number.trim().parse::<f64>().ok());
+            let pixels = pixels.filter(|pixels| *pixels > 0.0 && *pixels <= WIDEST_FILTER);
+            (name.trim(), Some(pixels.ok_or_else(|| format!("`{radius}` is no radius such as `1px`"))?))
+        }
+    };
+    let filter = word(name, "filter", &FILTERS)?;
+    Ok(radius.map_or(filter, |radius| filter.with_radius(radius)))
+}
+
+/// What one of a few words stands for.
+fn word<T: Copy>(value: &str, kind: &str, words: &[(&str, T)]) -> Result<T, String> {
+    let known = words.iter().find(|(known, _)| *known == value);
+    known.map(|(_, meaning)| *meaning).ok_or_else(|| {
+        let names: Vec<&str> = words.iter().map(|(name, _)| *name).collect();
+        let near = did_you_mean(value, names.iter().copied());
+        format!("no {kind} is called `{value}`: {}", near.unwrap_or_else(|| names.join(", ")))
+    })
+}
+
 /// `5cm`, `2mm`, `0.1m`.
 fn length(value: &str) -> Result<f64, String> {
     const UNITS: [(&str, f64); 4] = [("mm", 1e-3), ("cm", 1e-2), ("km", 1e3), ("m", 1.0)];
@@ -116,64 +147,6 @@ fn length(value: &str) -> Result<f64, String> {
     metres
         .filter(|metres| *metres > 0.0 && metres.is_finite())
         .ok_or_else(|| format!("`{value}` is no length such as `5cm`"))
-}
-
-/// One way to render the scene.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub struct Variant {
-    settings: Vec<Setting>,
-}
-
-impl Variant {
-    /// The method, where it is varied.
-    pub fn method(&self) -> Option<Method> {
-        self.settings.iter().find_map(|setting| match setting {
-            Setting::Method(method) => Some(*method),
-            _ => None,
-        })
-    }
-
-    /// The plan with this variant's values.
-    pub fn apply(&self, plan: &mut Plan) {
-        for setting in &self.settings {
-            match *setting {
-                Setting::Method(_) | Setting::Passes(_) => {}
-                Setting::Photons(count) => plan.photon_count = count,
-                Setting::K(k) => plan.photon_k = k,
-                Setting::Radius(radius) => plan.photon_radius = Some(radius),
-                Setting::Shrink(shrink) => plan.photon_shrink = shrink,
-                Setting::Depth(depth) => plan.depth = depth,
-            }
-        }
-    }
-
-    /// What it is called in tables, under a method: `ppm k=60`. What the method has no use for is left out.
-    pub fn name(&self, method: ir::Method) -> String {
-        let has_photons = !matches!(method, ir::Method::Pt | ir::Method::Classic);
-        let words = self.settings.iter().filter_map(|setting| match *setting {
-            Setting::Photons(count) if has_photons => Some(format!("photons={count}")),
-            Setting::K(k) if has_photons => Some(format!("k={k}")),
-            Setting::Radius(radius) if has_photons => Some(format!("radius={}", length_text(radius))),
-            Setting::Shrink(shrink) if has_photons => Some(format!("shrink={shrink}")),
-            Setting::Depth(depth) => Some(format!("depth={depth}")),
-            _ => None,
-        });
-        let name = method_name(method);
-        std::iter::once(name).chain(words).collect::<Vec<_>>().join(" ")
-    }
-}
-
-/// The name of a method, as it is asked for.
-pub fn method_name(method: ir::Method) -> String {
-    format!("{method:?}").to_lowercase()
-}
-
-fn length_text(metres: f64) -> String {
-    match metres {
-        m if m >= 1.0 => format!("{m}m"),
-        m if m >= 0.01 => format!("{}cm", (m * 1e4).round() / 100.0),
-        m => format!("{}mm", (m * 1e5).round() / 100.0),
-    }
 }
 
 /// Every combination of the values, in the order in which they were given.
@@ -190,6 +163,11 @@ pub fn variants(sweeps: &[Sweep]) -> Vec<Variant> {
             .collect();
     }
     out
+}
+
+/// Whether the shapes that triangles stand for are varied.
+pub fn varies_tolerance(sweeps: &[Sweep]) -> bool {
+    sweeps.iter().any(|sweep| sweep.key == Key::Tolerance)
 }
 
 /// The most passes that are asked for: all doublings up to there are measured anyway.
@@ -223,7 +201,11 @@ mod tests {
         assert_eq!(parse("photons=1e5,200_000").unwrap().values.len(), 2);
         for (text, words) in [
             ("methd=pt", "did you mean `method`?"),
-            ("tolerance=1mm", "cannot be varied yet"),
+            ("watertight=on", "docs/hard-cases.md"),
+            ("sampler=sobl", "did you mean `sobol`?"),
+            ("filter=tent(1)", "such as `1px`"),
+            ("filter=hat", "box, tent, gaussian"),
+            ("tolerance=fine", "such as `5cm`"),
             ("method=ptt", "did you mean `pt`?"),
             ("k=1", "from 2 on"),
             ("radius=5", "such as `5cm`"),
