@@ -22,6 +22,7 @@ mod layers;
 mod meaning;
 mod messages;
 mod metrics;
+mod motion;
 mod mutation;
 mod pictures;
 mod readme;

@@ -1,5 +1,6 @@
 //! Cameras and film.
 
+use super::TransformStep;
 use crate::math::{DVec2, DVec3};
 use crate::source::{Span, Spanned};
 
@@ -20,6 +21,10 @@ pub struct Camera {
     pub lens: Lens,
     /// The film.
     pub film: Film,
+    /// The share of a frame for which the shutter is open, from the frame's beginning on; 0 takes what stands there then.
+    pub shutter: Spanned<f64>,
+    /// What moves it, the innermost first: applied to position, direction and up already, as they are when a frame begins.
+    pub transform: Vec<TransformStep>,
     /// Its block.
     pub span: Span,
 }

@@ -73,6 +73,7 @@ pub fn lower(
         instances: Instances::count(loaded),
         sources: Vec::new(),
         is_smooth: plan.simulates(Effect::SmoothNormals),
+        shutter: effects::shutter(plan, camera),
     };
     for object in &loaded.scene.objects {
         lowering.object(object);
@@ -86,7 +87,7 @@ pub fn lower(
         _ => ir::PixelPoint::Filter,
     };
     let mut camera = camera::camera(camera, pixel, loaded, center).map_err(|error| problems.push(error)).ok();
-    camera.iter_mut().for_each(|camera| effects::close_lens(plan, camera));
+    camera.iter_mut().for_each(|camera| effects::hold_camera(plan, camera));
 
     let Lowering { materials, shapes, sources, .. } = lowering;
     let Shapes { meshes, shared, instances, solids } = shapes;
@@ -159,6 +160,8 @@ struct Lowering<'a> {
     sources: Vec<Span>,
     /// Whether triangles keep the normals of their vertices.
     is_smooth: bool,
+    /// The share of a frame for which the shutter is open.
+    shutter: f64,
 }
 
 impl Lowering<'_> {

@@ -5,6 +5,8 @@
 pub enum Effect {
     /// A lens opening: depth of field.
     LensBlur,
+    /// Things that move while the shutter is open, or the camera.
+    Motion,
     /// Lights with a size.
     SoftShadows,
     /// Light from everywhere.
@@ -39,8 +41,9 @@ pub enum Effect {
 
 impl Effect {
     /// All of them, in the order in which they are listed.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::LensBlur,
+        Self::Motion,
         Self::SoftShadows,
         Self::Environment,
         Self::MeshLights,
@@ -62,6 +65,7 @@ impl Effect {
     pub const fn name(self) -> &'static str {
         match self {
             Self::LensBlur => "lens_blur",
+            Self::Motion => "motion",
             Self::SoftShadows => "soft_shadows",
             Self::Environment => "environment",
             Self::MeshLights => "mesh_lights",
@@ -89,6 +93,7 @@ impl Effect {
     pub const fn adds(self) -> &'static str {
         match self {
             Self::LensBlur => "a point of the lens for each path",
+            Self::Motion => "a moment for each path, a transform for each thing that moves",
             Self::SoftShadows => "a point of a light at each vertex",
             Self::Environment => "a table of the sky, a look at it by each ray that leaves",
             Self::MeshLights => "a light for each triangle that shines",
@@ -111,6 +116,7 @@ impl Effect {
     pub const fn without(self) -> Option<&'static str> {
         match self {
             Self::LensBlur => Some("sharp at every distance"),
+            Self::Motion => Some("as it is when the shutter opens"),
             Self::Environment => Some("black around"),
             Self::NormalMaps => Some("flat where normals were bent"),
             Self::Alpha => Some("whole where there were holes"),

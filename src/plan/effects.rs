@@ -9,7 +9,9 @@ use super::look;
 use crate::check::{Region, region};
 use crate::ir::light::{EnvironmentRadiance, LightKind};
 use crate::ir::material::{Input, MaterialKind, Projection, TextureKind};
-use crate::ir::{Camera, Handle, Lens, Material, Object, RevolveMethod, Scene, Shape, ShapeKind, Texture};
+use crate::ir::{
+    Camera, Handle, Lens, Material, Object, RevolveMethod, Scene, Shape, ShapeKind, Texture, first_moving,
+};
 use crate::load::{Loaded, LoadedMesh};
 use crate::source::Span;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -110,6 +112,12 @@ impl Found<'_> {
             Lens::Prescription { file, .. } => self.add(Effect::LensBlur, file.span),
             _ => {}
         }
+        if camera.shutter.value > 0.0 {
+            let own = first_moving(&camera.transform).into_iter();
+            let things = self.scene.objects.iter().filter_map(|object| object.motion.as_ref());
+            let moving: Vec<Span> = own.chain(things.map(|motion| motion.span)).collect();
+            moving.into_iter().for_each(|span| self.add(Effect::Motion, span));
+        }
     }
 
     fn object(&mut self, object: &Object) {
@@ -135,9 +143,9 @@ impl Found<'_> {
         }
     }
 
-    /// What holds an object; `None` for what has no end.
+    /// What holds an object; `None` for what has no end, and for what may be anywhere on its way.
     fn region(&self, object: &Object) -> Option<Region> {
-        region(object, self.scene, self.loaded)
+        region(object, self.scene, self.loaded).filter(|_| object.motion.is_none())
     }
 
     fn shape(&mut self, object: &Object, shape: &Shape, material: Option<Handle<Material>>) {

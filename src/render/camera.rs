@@ -10,7 +10,7 @@ pub use filter::{Filter, FilterSample};
 pub use prescription::{Interface, Paraxial, Prescription, image_distance, paraxial};
 pub use wide::{Mapping, View};
 
-use crate::math::{Ray, Vec2, Vec3};
+use crate::math::{Motion, Ray, Vec2, Vec3};
 use std::sync::Arc;
 
 /// What a camera is built from.
@@ -34,6 +34,8 @@ pub struct CameraSpec {
     pub height: u32,
     /// How samples spread about pixel centres.
     pub filter: Filter,
+    /// Where it is while the shutter is open, from where it is when that opens: a rotation and a shift. `None`: it stands still.
+    pub motion: Option<Arc<Motion>>,
 }
 
 /// How light gets in, where that is not through a point.
@@ -71,6 +73,7 @@ pub struct Camera {
     width: u32,
     height: u32,
     filter: Filter,
+    motion: Option<Arc<Motion>>,
 }
 
 impl Camera {
@@ -90,6 +93,7 @@ impl Camera {
             width: spec.width,
             height: spec.height,
             filter: spec.filter,
+            motion: spec.motion,
         }
     }
 
@@ -139,6 +143,15 @@ impl Camera {
         }
     }
 
+    /// A ray of [`Self::ray`] as it leaves at a time in [0, 1), from where the camera is then.
+    pub fn at(&self, camera: CameraRay, time: f32) -> CameraRay {
+        let Some(motion) = &self.motion else { return CameraRay { ray: camera.ray.at_time(time), ..camera } };
+        let moved = motion.at(time.into());
+        let o = moved.transform_point3(camera.ray.o.as_dvec3()).as_vec3();
+        let d = moved.transform_vector3(camera.ray.d.as_dvec3()).normalize().as_vec3();
+        CameraRay { ray: Ray { o, d, time, ..camera.ray }, ..camera }
+    }
+
     /// A ray of the camera's frame (right, up, forward) in the world.
     fn to_world(&self, ray: &Ray) -> Ray {
         let turned = |v: Vec3| self.right * v.x + self.up * v.y + self.forward * v.z;
@@ -161,6 +174,7 @@ mod tests {
             width: 4,
             height: 2,
             filter: Filter::Box { radius: 0.5 },
+            motion: None,
         }
     }
 

@@ -297,7 +297,7 @@ fn sample<I: Integrator>(
     if world.is_watched {
         ledger::begin_path();
     }
-    let (sampler, ray) = camera_ray(world, pass, pixel);
+    let (sampler, ray) = camera_ray(world, pass, pixel, integrator.is_of_a_moment());
     let Some(CameraRay { ray, weight }) = ray else { return Rgb::BLACK };
     let radiance = integrator.radiance(ray, &sampler, counters, witness);
     if world.is_watched {
@@ -307,12 +307,23 @@ fn sample<I: Integrator>(
     if radiance.is_valid() { radiance * weight } else { Rgb::gray(f32::NAN) }
 }
 
-/// The ray of a pixel in a pass, if its lens lets one through, and the numbers of its path.
-fn camera_ray(world: &World, pass: Pass, pixel: [u32; 2]) -> (Sampler, Option<CameraRay>) {
+/// The ray of a pixel in a pass, if its lens lets one through, and the numbers of its path. It leaves at the pass's moment,
+/// or at one of its own.
+fn camera_ray(
+    world: &World,
+    pass: Pass,
+    pixel: [u32; 2],
+    is_of_a_moment: bool,
+) -> (Sampler, Option<CameraRay>) {
     let sampler = pass.camera_sampler(number(pixel));
     let blurs = world.effects.has(Effects::LENS_BLUR);
     let u_lens = if blurs { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
-    (sampler, world.camera.ray(pixel, sampler.get_2d(Dim::Filter), u_lens))
+    let ray = world.camera.ray(pixel, sampler.get_2d(Dim::Filter), u_lens);
+    if !world.effects.has(Effects::MOTION) {
+        return (sampler, ray);
+    }
+    let time = if is_of_a_moment { pass.moment(world) } else { sampler.get_1d(Dim::Time) };
+    (sampler, ray.map(|camera| world.camera.at(camera, time)))
 }
 
 /// Another number for each pixel.

@@ -130,6 +130,7 @@ fn bent(ns: Vec3) -> SurfacePoint {
         material: MaterialId(0),
         prim: PrimId(0),
         source: SourceId(0),
+        time: 0.0,
     }
 }
 

@@ -25,6 +25,7 @@ fn surface(ns: Vec3) -> SurfacePoint {
         material: MaterialId(0),
         prim: PrimId(0),
         source: SourceId(0),
+        time: 0.0,
     }
 }
 

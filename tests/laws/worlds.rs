@@ -37,6 +37,7 @@ pub fn quad(origin: Vec3, u: Vec3, v: Vec3, material: u32) -> Mesh {
         material: MaterialId(material),
         object_from_world: DAffine3::IDENTITY,
         source: SourceId::default(),
+        motion: None,
     }
 }
 
@@ -61,6 +62,7 @@ pub fn sphere(center: Vec3, radius: f64, material: u32) -> Solid {
         texture_from_object: DAffine3::IDENTITY,
         material: MaterialId(material),
         source: SourceId::default(),
+        motion: None,
     }
 }
 
@@ -77,6 +79,7 @@ pub fn camera(position: Vec3, direction: Vec3, tan: f32, side: u32) -> Camera {
         width: side,
         height: side,
         filter: Filter::Box { radius: 0.5 },
+        motion: None,
     })
 }
 

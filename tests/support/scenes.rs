@@ -13,7 +13,7 @@ pub struct Told {
     pub report: String,
 }
 
-/// Renders `passes` passes of a scene, with parameters set as on the command line.
+/// Renders `passes` passes of a scene, from the seed 1 unless the scene has one, with parameters set as on the command line.
 pub fn render_text(text: &str, files: &Memory, sets: &[(&str, &str)], passes: u32) -> Told {
     let mut sources = SourceMap::default();
     let main = sources.add("scene.snell".into(), "scene.snell".into(), text.trim_start().into()).unwrap();
@@ -39,7 +39,8 @@ fn film(
     let plan = snell::plan::plan(&loaded, Some(camera), None);
     let lowered = snell::lower::lower(&loaded, &plan, camera, files, problems)?;
     let stop = Stop { passes: Some(passes), ..Stop::default() };
-    let settings = Settings { method: lowered.method, max_depth: plan.depth, seed: 1, stop, crop: None };
+    let seed = scene.render.seed.map_or(1, |seed| seed.value);
+    let settings = Settings { method: lowered.method, max_depth: plan.depth, seed, stop, crop: None };
     Some(snell::render::render(&lowered.world, &settings, &()).film)
 }
 

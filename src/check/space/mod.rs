@@ -73,7 +73,9 @@ impl Meshes for NoMeshes {
 /// Notes what is doubtful about the places of things in a scene with meshes; in one without, [`check`](super::check) did.
 pub fn survey(scene: &Checked, meshes: &dyn Meshes, problems: &mut Problems) {
     if scene.is_sound && places_meshes(scene) {
-        Check::new(scene, problems, true).survey(meshes);
+        let mut check = Check::new(scene, problems, true);
+        check.moving_meshes(meshes);
+        check.survey(meshes);
     }
 }
 

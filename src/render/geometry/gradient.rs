@@ -21,6 +21,7 @@ impl Geometry {
         match self.prim(surface.prim) {
             Prim::Triangle(mesh, corners) => triangle_gradient(mesh, corners, along),
             Prim::Placed(placed, mesh, corners) => {
+                let placed = placed.at(surface.time);
                 triangle_gradient(mesh, corners, along.map(|dir| placed.vector_mesh(dir)))
             }
             Prim::Solid(_) => self.solid_gradient(surface, along),
@@ -51,7 +52,7 @@ impl Geometry {
     /// The point of the same solid that lies across from `surface`, moved.
     fn beside(&self, surface: &SurfacePoint, moved: Vec3) -> Option<SurfacePoint> {
         let lift = surface.n * moved.length();
-        let ray = Ray { o: surface.p + moved + lift, d: -lift, t_max: 4.0 };
+        let ray = Ray { o: surface.p + moved + lift, d: -lift, t_max: 4.0, time: surface.time };
         let hit = self.hit_solid(surface.prim.0 - self.first_solid(), &ray)?;
         Some(self.surface_point(&ray, &hit))
     }

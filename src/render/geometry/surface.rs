@@ -1,6 +1,6 @@
 //! From a hit to the full surface point, and rays that leave it.
 
-use super::instance::PlacedMesh;
+use super::instance::{PlacedMesh, Placement};
 use super::{AreaSample, Geometry, Hit, Prim, PrimId, SurfacePoint};
 use crate::math::{DVec3, Ray, Vec2, Vec3, float};
 use crate::render::shape::Mesh;
@@ -11,8 +11,13 @@ impl Geometry {
     /// Everything about the point where `ray` met the geometry.
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         match self.prim(hit.prim) {
-            Prim::Triangle(mesh, triangle) => triangle_point(mesh, triangle, hit.uv, hit.prim),
-            Prim::Placed(placed, mesh, triangle) => placed_point(placed, mesh, triangle, hit.uv, hit.prim),
+            Prim::Triangle(mesh, triangle) => {
+                SurfacePoint { time: ray.time, ..triangle_point(mesh, triangle, hit.uv, hit.prim) }
+            }
+            Prim::Placed(placed, mesh, triangle) => SurfacePoint {
+                time: ray.time,
+                ..placed_point(placed, &placed.at(ray.time), mesh, triangle, hit)
+            },
             Prim::Solid(solid) => solid.surface_point(ray, SolidHit { t: hit.t, uv: hit.uv }, hit.prim),
         }
     }
@@ -21,7 +26,7 @@ impl Geometry {
 impl SurfacePoint {
     /// The ray that leaves along `dir`, from an origin that lies beyond the rounding errors of the surface.
     pub fn spawn(&self, dir: Vec3) -> Ray {
-        Ray::new(offset(self.p, self.p_error, self.n, dir), dir)
+        Ray::new(offset(self.p, self.p_error, self.n, dir), dir).at_time(self.time)
     }
 
     /// The open segment (0, 1) to `target` on a surface with normal `target_n`, both ends moved off their surfaces.
@@ -33,7 +38,7 @@ impl SurfacePoint {
         let reach = (target - o).abs().max_element() * float::gamma(8);
         let target_error = if target_error == Vec3::ZERO { target_error } else { target_error + reach };
         let end = offset(target, target_error, target_n, o - target);
-        Ray { o, d: end - o, t_max: 1.0 }
+        Ray { o, d: end - o, t_max: 1.0, time: self.time }
     }
 }
 
@@ -91,28 +96,37 @@ pub(super) fn triangle_point(mesh: &Mesh, triangle: [u32; 3], b: Vec2, prim: Pri
         material: mesh.material,
         prim,
         source: mesh.source,
+        time: 0.0,
     }
 }
 
 /// The same on a triangle of a mesh that is placed.
-fn placed_point(placed: &PlacedMesh, mesh: &Mesh, triangle: [u32; 3], b: Vec2, prim: PrimId) -> SurfacePoint {
+fn placed_point(
+    placed: &PlacedMesh,
+    placement: &Placement,
+    mesh: &Mesh,
+    triangle: [u32; 3],
+    hit: &Hit,
+) -> SurfacePoint {
+    let b = hit.uv;
     let corners = mesh.corners(triangle).map(|p| p.as_dvec3());
-    let (p, p_error) = placed.point(mesh, triangle, b);
-    let n = placed.normal(cross_of_edges(mesh.corners(triangle))).as_vec3().normalize();
-    let ns = shading_normal(mesh, triangle, b, n, |normal| placed.normal(normal.as_dvec3()).as_vec3());
+    let (p, p_error) = placement.point(mesh, triangle, b);
+    let n = placement.normal(cross_of_edges(mesh.corners(triangle))).as_vec3().normalize();
+    let ns = shading_normal(mesh, triangle, b, n, |normal| placement.normal(normal.as_dvec3()).as_vec3());
     let (uv, tangent) = texture_frame(mesh, triangle, corners, b);
     SurfacePoint {
         p,
         p_error,
         n,
         ns,
-        tangent: orthogonal_tangent(placed.vector(tangent), ns),
+        tangent: orthogonal_tangent(placement.vector(tangent), ns),
         uv,
         // The frame of the mesh is the world as far as the mesh knows.
         p_object: mesh.object_from_world.transform_point3(interpolate_point(corners, b).0).as_vec3(),
         material: placed.instance.material,
-        prim,
+        prim: hit.prim,
         source: placed.instance.source,
+        time: 0.0,
     }
 }
 

@@ -57,7 +57,8 @@ impl<'a> Caustics<'a> {
             .into_par_iter()
             .filter(|_| !cancelled())
             .map(|chunk| {
-                let mut tracer = Tracer { caustics: self, photons: Vec::new(), rays: 0 };
+                let time = pass.moment(self.world);
+                let mut tracer = Tracer { caustics: self, time, photons: Vec::new(), rays: 0 };
                 for photon in chunk * CHUNK..count.min((chunk + 1) * CHUNK) {
                     tracer.emit(&pass.photon_sampler(photon), 1.0 / count as f32);
                 }
@@ -108,6 +109,8 @@ impl<'a> Caustics<'a> {
 /// Follows photons one after the other.
 struct Tracer<'a> {
     caustics: &'a Caustics<'a>,
+    /// When all of them are under way.
+    time: f32,
     photons: Vec<Photon>,
     rays: u64,
 }
@@ -116,7 +119,7 @@ impl Tracer<'_> {
     /// One photon, which stands for `share` of all light; left on the surfaces that it reaches by way of sharp lobes alone.
     fn emit(&mut self, sampler: &Sampler, share: f32) {
         let Caustics { world, aim, max_depth, .. } = self.caustics;
-        let Some(start) = aim.emit(sampler) else { return };
+        let Some(start) = aim.emit(sampler, self.time) else { return };
         let mut flight = Flight::new(world, start.ray, start.power * share, sampler);
         while flight.bounce + 1 < *max_depth {
             self.rays += 1;

@@ -132,6 +132,7 @@ fn somewhere(material: MaterialId, uv: Vec2) -> SurfacePoint {
         material,
         prim: PrimId(0),
         source: SourceId::default(),
+        time: 0.0,
     }
 }
 
@@ -144,7 +145,7 @@ fn triangle_ball(mesh: &Mesh, corners: [u32; 3], albedo: f32) -> Ball {
 
 fn solid_ball(solid: &Solid, bounds: Bounds, albedo: f32) -> Ball {
     match solid.kind {
-        SolidKind::Sphere | SolidKind::Disk => {
+        SolidKind::Sphere | SolidKind::Disk if solid.motion.is_none() => {
             // The unit ball grows by at most √‖MᵀM‖∞, and by exactly that where the axes stay orthogonal.
             let m = &solid.world_from_object.matrix3;
             let axes = [m.x_axis, m.y_axis, m.z_axis];
