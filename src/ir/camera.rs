@@ -1,7 +1,7 @@
 //! Cameras and film.
 
 use super::TransformStep;
-use crate::math::{DVec2, DVec3};
+use crate::math::{DAffine3, DVec2, DVec3, Motion};
 use crate::source::{Span, Spanned};
 
 /// A camera.
@@ -27,6 +27,14 @@ pub struct Camera {
     pub transform: Vec<TransformStep>,
     /// Its block.
     pub span: Span,
+}
+
+impl Camera {
+    /// Where it is while its shutter is open, from where it is when a frame begins; `None` where it stands still.
+    pub fn seen_motion(&self) -> Option<Motion> {
+        let whole = Motion::new(self.transform.iter().map(|step| step.factor))?;
+        whole.part(whole.at(0.0).inverse(), self.shutter.value, DAffine3::IDENTITY)
+    }
 }
 
 /// A full angle, in radians.

@@ -55,9 +55,8 @@ pub fn camera(
 
 /// Where the camera is while its shutter is open, from where it is when that opens; both about the scene's `center`.
 fn motion(camera: &ir::Camera, center: DVec3) -> Option<Motion> {
-    let whole = Motion::new(camera.transform.iter().map(|step| step.factor))?;
     let to_scene = DAffine3::from_translation(center);
-    whole.part(whole.at(0.0).inverse() * to_scene, camera.shutter.value, to_scene.inverse())
+    camera.seen_motion()?.part(to_scene, 1.0, to_scene.inverse())
 }
 
 fn tan_half_fov_x(camera: &ir::Camera, aspect: f64) -> f64 {
