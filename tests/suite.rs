@@ -33,3 +33,4 @@ mod silhouettes;
 mod snapshots;
 mod study;
 mod support;
+mod texture_filtering;

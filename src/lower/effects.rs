@@ -8,7 +8,7 @@ use crate::render::camera::LensSpec;
 use crate::render::light::Environment;
 
 /// What rays ask about, by the name that a plan has for it.
-const ASKED: [(Effect, Effects); 8] = [
+const ASKED: [(Effect, Effects); 9] = [
     (Effect::LensBlur, Effects::LENS_BLUR),
     (Effect::Alpha, Effects::ALPHA),
     (Effect::Dispersion, Effects::DISPERSION),
@@ -17,6 +17,7 @@ const ASKED: [(Effect, Effects); 8] = [
     (Effect::Caustics, Effects::CAUSTICS),
     (Effect::Indirect, Effects::INDIRECT),
     (Effect::Motion, Effects::MOTION),
+    (Effect::TextureFiltering, Effects::TEXTURE_FILTERING),
 ];
 
 /// The effects that the engine is to simulate.
@@ -45,6 +46,11 @@ pub(super) fn hold_camera(plan: &Plan, camera: &mut Seen) {
     if let (false, Some(LensSpec::Thin(lens))) = (plan.simulates(Effect::LensBlur), &mut camera.spec.lens) {
         lens.radius = 0.0;
     }
+}
+
+/// Whether pictures are filtered; not by recursive ray tracing, whose pictures are to be those of others, pixel by pixel.
+pub(super) fn filters(plan: &Plan) -> bool {
+    plan.simulates(Effect::TextureFiltering) && plan.method != ir::Method::Classic
 }
 
 /// The share of a frame for which the shutter is open; 0 where motion is left out.

@@ -32,6 +32,10 @@ pub struct Materials<'a> {
     by_model: FxHashMap<(usize, usize), MaterialId>,
     texture_by_handle: FxHashMap<(usize, Slot), TextureId>,
     images: FxHashMap<(PathBuf, Reading), Option<Arc<Image>>>,
+    /// Whether pictures are filtered.
+    filters: bool,
+    /// The coarser ones of those of `images` that are.
+    coarser: FxHashMap<*const Image, Arc<[Image]>>,
     gray: Option<MaterialId>,
     failed: Vec<LoadError>,
     origins: FxHashMap<MaterialId, Origin>,
@@ -59,17 +63,19 @@ pub struct Finished {
 }
 
 impl<'a> Materials<'a> {
-    /// None yet.
-    pub fn new(loaded: &'a Loaded<'a>, files: &'a dyn Files) -> Self {
+    /// None yet. Whether pictures are to be filtered, `filters` says.
+    pub fn new(loaded: &'a Loaded<'a>, files: &'a dyn Files, filters: bool) -> Self {
         Self {
             loaded,
             files,
+            filters,
             materials: Vec::new(),
             textures: Vec::new(),
             by_handle: FxHashMap::default(),
             by_model: FxHashMap::default(),
             texture_by_handle: FxHashMap::default(),
             images: FxHashMap::default(),
+            coarser: FxHashMap::default(),
             gray: None,
             failed: Vec::new(),
             origins: FxHashMap::default(),

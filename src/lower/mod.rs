@@ -68,7 +68,7 @@ pub fn lower(
     let mut lowering = Lowering {
         loaded,
         center,
-        materials: Materials::new(loaded, files),
+        materials: Materials::new(loaded, files, effects::filters(plan)),
         shapes: Shapes::default(),
         instances: Instances::count(loaded),
         sources: Vec::new(),

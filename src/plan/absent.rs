@@ -23,6 +23,7 @@ pub fn why(effect: Effect, scene: &Scene, camera: Option<&Camera>) -> String {
         Effect::Environment => "no environment, no sky",
         Effect::MeshLights => "no object shines",
         Effect::Textures => "every colour is the same all over",
+        Effect::TextureFiltering => "no surface takes its colour from a picture",
         Effect::NormalMaps => "no normal map, no bump",
         Effect::Alpha => "no mask: nothing has holes",
         Effect::SmoothNormals => "no triangles with normals of their own",

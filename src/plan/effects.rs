@@ -143,9 +143,9 @@ impl Found<'_> {
         }
     }
 
-    /// What holds an object; `None` for what has no end, and for what may be anywhere on its way.
+    /// What holds an object on all of its way; `None` for what has no end.
     fn region(&self, object: &Object) -> Option<Region> {
-        region(object, self.scene, self.loaded).filter(|_| object.motion.is_none())
+        region(object, self.scene, self.loaded)
     }
 
     fn shape(&mut self, object: &Object, shape: &Shape, material: Option<Handle<Material>>) {
@@ -234,6 +234,9 @@ impl Found<'_> {
             _ => texture.span,
         };
         self.add(Effect::Textures, span);
+        if matches!(texture.kind, TextureKind::Image(_)) {
+            self.add(Effect::TextureFiltering, span);
+        }
         texture.kind.inputs().iter().for_each(|input| self.input(input));
     }
 
@@ -254,7 +257,7 @@ impl Found<'_> {
         if let Some(environment) = &scene.environment {
             self.add(Effect::Environment, environment.span);
             if let EnvironmentRadiance::Image(texture) = environment.radiance {
-                self.texture(texture);
+                self.add(Effect::Textures, scene.textures[texture].span);
             }
         }
     }

@@ -117,6 +117,17 @@ impl Camera {
         self.half_width.length() * 2.0 / self.width as f32
     }
 
+    /// The cone that a pixel's ray stands for: its width where it leaves, in metres, and by how much that grows for each.
+    pub fn cone(&self) -> (f32, f32) {
+        let width = self.width as f32;
+        match &self.lens {
+            Some(LensSpec::View(View::Orthographic { half })) => (2.0 * half.x / width, 0.0),
+            Some(LensSpec::View(View::Panorama { half })) => (0.0, 2.0 * half.x / width),
+            Some(LensSpec::View(View::Fisheye { half, rim, .. })) => (0.0, 2.0 * half / (rim.x * width)),
+            None | Some(LensSpec::Thin(_) | LensSpec::Real(_)) => (0.0, self.pixel_angle()),
+        }
+    }
+
     /// The ray of a pixel, counted from the top left; `None` where the lens lets nothing through to the film.
     pub fn ray(&self, [x, y]: [u32; 2], u_filter: Vec2, u_lens: Vec2) -> Option<CameraRay> {
         let FilterSample { offset, weight } = self.filter.sample(u_filter);

@@ -318,7 +318,11 @@ fn camera_ray(
     let sampler = pass.camera_sampler(number(pixel));
     let blurs = world.effects.has(Effects::LENS_BLUR);
     let u_lens = if blurs { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
-    let ray = world.camera.ray(pixel, sampler.get_2d(Dim::Filter), u_lens);
+    let mut ray = world.camera.ray(pixel, sampler.get_2d(Dim::Filter), u_lens);
+    if let (true, Some(camera)) = (world.effects.has(Effects::TEXTURE_FILTERING), &mut ray) {
+        let (width, angle) = world.camera.cone();
+        camera.ray = camera.ray.as_cone(width, angle);
+    }
     if !world.effects.has(Effects::MOTION) {
         return (sampler, ray);
     }

@@ -28,8 +28,10 @@ impl Effects {
     pub const INDIRECT: Self = Self(1 << 6);
     /// Things or a camera that move while the shutter is open: without, all is as when it opens.
     pub const MOTION: Self = Self(1 << 7);
+    /// Pictures of which a pixel covers many texels: without, each look takes a point of them.
+    pub const TEXTURE_FILTERING: Self = Self(1 << 8);
     /// All of them.
-    pub const ALL: Self = Self((1 << 8) - 1);
+    pub const ALL: Self = Self((1 << 9) - 1);
 
     /// Whether one of them is among these.
     #[inline]

@@ -6,7 +6,7 @@ mod sampling;
 mod surface;
 mod terminator;
 
-pub use gradient::Gradient;
+pub use gradient::{Gradient, Spread};
 pub use sampling::{AreaSample, DirectionSample, Outline};
 
 use super::accel::Wide;
@@ -56,6 +56,12 @@ pub struct SurfacePoint {
     pub source: SourceId,
     /// When it is there: the time of the ray that met it.
     pub time: f32,
+    /// The width of what the ray that met it stands for, in metres.
+    pub footprint: f32,
+    /// By how much that grows for each metre further on.
+    pub angle: f32,
+    /// How far that reaches over textures, where they are filtered.
+    pub spread: Spread,
 }
 
 /// What geometry is made of.

@@ -1,6 +1,6 @@
 //! Everything a render needs, from plain data to ready tables.
 
-use super::bsdf::{Bsdf, Material, Materials, Relief, facing};
+use super::bsdf::{Bsdf, Material, MaterialId, Materials, Relief, facing};
 use super::camera::Camera;
 use super::effects::Effects;
 use super::geometry::{Geometry, Hit, Shapes, SurfacePoint};
@@ -135,6 +135,8 @@ impl World {
     pub fn bsdf_between(&self, surface: &SurfacePoint, wo: Vec3, media: &Media) -> Bsdf {
         let from_outside = wo.dot(surface.n) > 0.0;
         let (material, relief) = self.materials.face(surface.material, from_outside);
+        let wide = self.is_filtered(surface, material).then(|| self.widened(surface));
+        let surface = wide.as_ref().unwrap_or(surface);
         let bent = relief.map(|relief| self.bent(surface, relief, wo));
         // A bsdf is large: it is made once, and changed where it lies.
         let mut bsdf = self.materials.bsdf_of(material, bent.as_ref().unwrap_or(surface));
@@ -144,6 +146,16 @@ impl World {
             None => {}
         }
         bsdf
+    }
+
+    /// Whether more than a point of the pictures of a material is seen at once.
+    fn is_filtered(&self, surface: &SurfacePoint, material: MaterialId) -> bool {
+        surface.footprint > 0.0 && self.materials.is_filtered(material)
+    }
+
+    /// The surface with how far its footprint reaches over textures.
+    fn widened(&self, surface: &SurfacePoint) -> SurfacePoint {
+        SurfacePoint { spread: self.geometry.spread(surface), ..*surface }
     }
 
     /// The surface with its normal bent by a relief, for a viewer along `wo`.

@@ -37,7 +37,6 @@ pub fn quad(origin: Vec3, u: Vec3, v: Vec3, material: u32) -> Mesh {
         material: MaterialId(material),
         object_from_world: DAffine3::IDENTITY,
         source: SourceId::default(),
-        motion: None,
     }
 }
 

@@ -7,5 +7,5 @@ mod walk;
 
 pub use meshes::*;
 pub use random::Random;
-pub use scenes::{film_bits, render_text};
+pub use scenes::{film_bits, render_planned, render_text};
 pub use walk::{Walk, conservative_slab, fused_slab, hasty_slab};

@@ -9,6 +9,7 @@ use crate::math::{Rgb, Vec2, float};
 use crate::render::bsdf::Input;
 use crate::render::shape::MaterialId;
 use crate::render::texture::{self, ImageFilter, ImageTexture, Join, Texture, TextureId, Wrap};
+use std::sync::Arc;
 
 /// What the numbers of a picture are wanted as.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -123,9 +124,11 @@ impl Materials<'_> {
         };
         let file = self.loaded.model_picture(mesh, map.picture)?.clone();
         let image = self.image(&file, Reading { linear: wanted == Wanted::Number, channel })?;
+        let coarser = if wanted == Wanted::Number { Arc::new([]) } else { self.coarser(&image) };
         let (sin, cos) = float::sin_cos(map.uv_rotation);
         Some(self.add_texture(Texture::Image(ImageTexture {
             image,
+            coarser,
             wrap: match map.wrap {
                 MapWrap::Repeat => Wrap::Repeat,
                 MapWrap::Clamp => Wrap::Clamp,

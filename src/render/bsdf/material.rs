@@ -251,6 +251,8 @@ pub struct Materials {
     emissions: Vec<Emission>,
     /// By material: what fills it, if it is clear.
     interiors: Vec<Option<Interior>>,
+    /// By material: whether it matters to its colours how much of a picture is seen at once.
+    filtered: Vec<bool>,
     /// What is simulated of them.
     effects: Effects,
 }
@@ -261,11 +263,12 @@ impl Materials {
     /// # Panics
     /// When a mix holds more lobes than a [`Bsdf`] has room for.
     pub fn new(materials: Vec<Material>, textures: Vec<Texture>) -> Self {
-        let (emissions, interiors) = (Vec::new(), Vec::new());
+        let (emissions, interiors, filtered) = (Vec::new(), Vec::new(), Vec::new());
         let textures = Textures::new(textures);
-        let mut this = Self { materials, textures, emissions, interiors, effects: Effects::ALL };
+        let mut this = Self { materials, textures, emissions, interiors, filtered, effects: Effects::ALL };
         let ids = (0..this.materials.len() as u32).map(MaterialId);
         this.emissions = ids.clone().map(|id| this.find_emission(id)).collect();
+        this.filtered = ids.clone().map(|id| this.find_filtered(id)).collect();
         this.interiors = ids.clone().map(|id| this.find_interior(id)).collect();
         let most = ids.map(|id| lobe_count(&this.materials, id)).max().unwrap_or(0);
         assert!(most <= Bsdf::MAX_LOBES, "a mix of materials has at most {} lobes", Bsdf::MAX_LOBES);
@@ -313,6 +316,12 @@ impl Materials {
     /// What fills a solid of this material; `None` for what has no inside.
     pub fn interior(&self, id: MaterialId) -> Option<&Interior> {
         self.interiors[id.0 as usize].as_ref()
+    }
+
+    /// Whether it matters to the colours of a material how much of a picture is seen at once.
+    #[inline]
+    pub fn is_filtered(&self, id: MaterialId) -> bool {
+        self.filtered[id.0 as usize]
     }
 
     /// What is simulated of them.
@@ -478,6 +487,29 @@ impl Materials {
             }
             Material::Relief { base, .. } => self.find_emission(base),
             _ => Emission::NONE,
+        }
+    }
+
+    fn find_filtered(&self, id: MaterialId) -> bool {
+        let any = |inputs: &[Input]| {
+            inputs.iter().any(|input| matches!(input, Input::Texture(id) if self.textures.is_filtered(*id)))
+        };
+        match *self.get(id) {
+            Material::Diffuse { color } | Material::Mirror { color } | Material::Plastic { color, .. } => {
+                any(&[color])
+            }
+            Material::Whitted { diffuse, specular, .. } | Material::Phong { diffuse, specular, .. } => {
+                any(&[diffuse, specular])
+            }
+            Material::Metal { f0, edge, .. } => any(&[f0, edge]),
+            Material::Principled(of) => any(&[of.color]),
+            Material::Mix { a, b, .. } | Material::TwoSided { front: a, back: b } => {
+                self.find_filtered(a) || self.find_filtered(b)
+            }
+            Material::Layer { base, .. } | Material::Mask { base, .. } | Material::Relief { base, .. } => {
+                self.find_filtered(base)
+            }
+            Material::Glass(_) | Material::Emissive { .. } => false,
         }
     }
 

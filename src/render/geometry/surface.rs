@@ -1,7 +1,7 @@
 //! From a hit to the full surface point, and rays that leave it.
 
 use super::instance::{PlacedMesh, Placement};
-use super::{AreaSample, Geometry, Hit, Prim, PrimId, SurfacePoint};
+use super::{AreaSample, Geometry, Hit, Prim, PrimId, Spread, SurfacePoint};
 use crate::math::{DVec3, Ray, Vec2, Vec3, float};
 use crate::render::shape::Mesh;
 use crate::render::shape::solid::{SolidHit, orthogonal_tangent};
@@ -12,21 +12,30 @@ impl Geometry {
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         match self.prim(hit.prim) {
             Prim::Triangle(mesh, triangle) => {
-                SurfacePoint { time: ray.time, ..triangle_point(mesh, triangle, hit.uv, hit.prim) }
+                triangle_point(mesh, triangle, hit.uv, hit.prim).met_by(ray, hit.t)
             }
-            Prim::Placed(placed, mesh, triangle) => SurfacePoint {
-                time: ray.time,
-                ..placed_point(placed, &placed.at(ray.time), mesh, triangle, hit)
-            },
-            Prim::Solid(solid) => solid.surface_point(ray, SolidHit { t: hit.t, uv: hit.uv }, hit.prim),
+            Prim::Placed(placed, mesh, triangle) => {
+                placed_point(placed, &placed.at(ray.time), mesh, triangle, hit).met_by(ray, hit.t)
+            }
+            Prim::Solid(solid) => {
+                let solid_hit = SolidHit { t: hit.t, uv: hit.uv };
+                solid.surface_point(ray, solid_hit, hit.prim).met_by(ray, hit.t)
+            }
         }
     }
 }
 
 impl SurfacePoint {
+    /// The point as a ray met it that had come so far.
+    fn met_by(self, ray: &Ray, t: f32) -> Self {
+        Self { time: ray.time, footprint: ray.width + ray.angle * t, angle: ray.angle, ..self }
+    }
+
     /// The ray that leaves along `dir`, from an origin that lies beyond the rounding errors of the surface.
     pub fn spawn(&self, dir: Vec3) -> Ray {
-        Ray::new(offset(self.p, self.p_error, self.n, dir), dir).at_time(self.time)
+        Ray::new(offset(self.p, self.p_error, self.n, dir), dir)
+            .at_time(self.time)
+            .as_cone(self.footprint, self.angle)
     }
 
     /// The open segment (0, 1) to `target` on a surface with normal `target_n`, both ends moved off their surfaces.
@@ -38,7 +47,7 @@ impl SurfacePoint {
         let reach = (target - o).abs().max_element() * float::gamma(8);
         let target_error = if target_error == Vec3::ZERO { target_error } else { target_error + reach };
         let end = offset(target, target_error, target_n, o - target);
-        Ray { o, d: end - o, t_max: 1.0, time: self.time }
+        Ray { t_max: 1.0, ..Ray::new(o, end - o).at_time(self.time) }
     }
 }
 
@@ -97,6 +106,9 @@ pub(super) fn triangle_point(mesh: &Mesh, triangle: [u32; 3], b: Vec2, prim: Pri
         prim,
         source: mesh.source,
         time: 0.0,
+        footprint: 0.0,
+        angle: 0.0,
+        spread: Spread::NONE,
     }
 }
 
@@ -127,6 +139,9 @@ fn placed_point(
         prim: hit.prim,
         source: placed.instance.source,
         time: 0.0,
+        footprint: 0.0,
+        angle: 0.0,
+        spread: Spread::NONE,
     }
 }
 

@@ -301,7 +301,7 @@ impl PathTracer<'_> {
         walk.eta_scale *= next.eta * next.eta;
         walk.is_clear &= next.specular;
         walk.is_last = !next.specular && !self.world.effects.has(Effects::INDIRECT);
-        walk.ray = surface.spawn(next.wi);
+        walk.ray = surface.spawn(next.wi).as_cone(surface.footprint, next.angle(surface.angle));
         let pdf = if next.specular { f32::INFINITY } else { next.pdf };
         walk.last = Last { from: vertex.viewpoint(), pdf, sharp: None };
         if self.caustics.is_some() {

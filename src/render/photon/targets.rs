@@ -3,7 +3,7 @@
 use super::gathers;
 use crate::math::{Bounds, Vec2, Vec3};
 use crate::render::bsdf::{MaterialId, Materials};
-use crate::render::geometry::{Geometry, PrimId, SurfacePoint};
+use crate::render::geometry::{Geometry, PrimId, Spread, SurfacePoint};
 use crate::render::shape::{Mesh, Solid, SolidKind, SourceId};
 
 /// The most balls: each is looked at for each photon, which the rays saved must pay for.
@@ -133,6 +133,9 @@ fn somewhere(material: MaterialId, uv: Vec2) -> SurfacePoint {
         prim: PrimId(0),
         source: SourceId::default(),
         time: 0.0,
+        footprint: 0.0,
+        angle: 0.0,
+        spread: Spread::NONE,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::revolve::Revolve;
 use super::{Solid, SolidKind, sphere};
 use crate::math::{Bounds, DAffine3, DMat3, DVec3, Frame, Ray, Vec2, Vec3, float, warp};
-use crate::render::geometry::{AreaSample, DirectionSample, PrimId, SurfacePoint};
+use crate::render::geometry::{AreaSample, DirectionSample, PrimId, Spread, SurfacePoint};
 use std::borrow::Cow;
 use std::f64::consts::PI;
 
@@ -195,6 +195,9 @@ impl PlacedSolid {
             prim,
             source: self.solid.source,
             time: ray.time,
+            footprint: 0.0,
+            angle: 0.0,
+            spread: Spread::NONE,
         }
     }
 
