@@ -85,7 +85,15 @@ impl Factor {
         let looked_at = [0.0, 1.0].into_iter().chain(turning.into_iter().filter(|s| (0.0..=1.0).contains(s)));
         /// What is below this share of the volume is the rounding of the cubic.
         const VANISHING: f64 = 1e-9;
-        looked_at.into_iter().find(|&s| det(s) * sign <= 0.0 || det(s).abs() <= VANISHING * scale)
+        let flat =
+            looked_at.into_iter().find(|&s| det(s) * sign <= 0.0 || det(s).abs() <= VANISHING * scale)?;
+        // Where the sign has changed, it was flat before.
+        let (mut before, mut after) = (0.0, flat);
+        while det(flat) * sign < 0.0 && after - before > f64::from(f32::EPSILON) {
+            let middle = 0.5 * (before + after);
+            if det(middle) * sign > 0.0 { before = middle } else { after = middle }
+        }
+        Some(after)
     }
 
     /// Whether lengths and handedness stay as they are, to rounding.
@@ -518,7 +526,7 @@ mod tests {
         // Once through 0, and to 0 and back on the same side.
         let through = scales(DVec3::ONE, DVec3::new(-1.0, 1.0, 1.0));
         let touches = scales(DVec3::ONE, DVec3::new(-2.0, -2.0, 1.0));
-        assert!(through.flat_at().is_some());
+        assert!(through.flat_at().is_some_and(|s| (s - 0.5).abs() < 1e-6));
         assert!(touches.flat_at().is_some_and(|s| (s - 1.0 / 3.0).abs() < 1e-6));
         assert_eq!(scales(DVec3::ONE, DVec3::new(0.1, 5.0, 2.0)).flat_at(), None);
         assert_eq!(scales(DVec3::splat(-1.0), DVec3::splat(-3.0)).flat_at(), None);

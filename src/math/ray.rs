@@ -31,7 +31,7 @@ impl Ray {
         Self { time, ..self }
     }
 
-    /// The same ray as a cone, of this width at its origin and so much more for each metre.
+    /// The same ray as a cone, of this width at its origin and so much more for each metre (Akenine-Möller et al. 2021).
     #[must_use]
     pub const fn as_cone(self, width: f32, angle: f32) -> Self {
         Self { width, angle, ..self }

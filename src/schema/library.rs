@@ -294,8 +294,8 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "moving(rotate_y(0deg), rotate_y(360deg))",
     )
     .computed(
-        "Shifts, scales and turns about one axis that are written alike go each at an even speed, whole turns included; \
-         other pairs are taken apart into shift, rotation and stretch, and turn the short way round (Shoemake & Duff 1992).",
+        "a way at an even speed for each pair of shifts, scales or turns about one axis, whole turns included; \
+         other pairs are taken apart into shift, rotation and stretch, and turn the short way round (Shoemake & Duff 1992)",
     ),
     // ── Curves ─────────────────────────────────────────────────────────────────────────────────────────────────
     function(
