@@ -239,7 +239,7 @@ impl ImageTexture {
     /// four texels make the width, and what the pixel's own filter blurs is not blurred twice.
     fn filtered(&self, uv: Vec2, width: f32) -> Rgb {
         let level = float::ln(0.5 * width) / LN_2;
-        if !(level > 0.0) {
+        if level <= 0.0 || level.is_nan() {
             return self.lookup(uv);
         }
         let last = self.coarser.len() - 1;
