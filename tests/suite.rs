@@ -13,6 +13,7 @@ mod first_run;
 mod format;
 mod fuzz;
 mod generate;
+mod glow;
 mod hard_cases;
 mod laws;
 mod laws_geometry;

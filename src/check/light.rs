@@ -207,7 +207,7 @@ pub(super) fn emitting(scene: &Scene) -> Vec<bool> {
 fn shines(kind: &MaterialKind) -> bool {
     match kind {
         MaterialKind::Emissive { .. } => true,
-        MaterialKind::Principled(of) => !of.emission.value.is_black(),
+        MaterialKind::Principled(of) => !of.emission.is_black(),
         _ => false,
     }
 }

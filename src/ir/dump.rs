@@ -209,7 +209,10 @@ fn material_kind(material: &Material) -> String {
             of.ior.value,
             input(of.clearcoat),
             input(of.clearcoat_roughness),
-            rgb(of.emission.value)
+            match of.emission {
+                Input::Constant(emission) => rgb(emission.value),
+                map @ Input::Texture(_) => input(map),
+            }
         ),
         MaterialKind::Mask { base, opacity, cutoff } => {
             let cutoff = cutoff.map_or(String::new(), |cutoff| format!(" cutoff {}", number(cutoff)));

@@ -109,7 +109,7 @@ impl<'a> Materials<'a> {
     pub fn emits(&self, handle: Handle<ir::Material>) -> bool {
         match &self.loaded.scene.materials[handle].kind {
             MaterialKind::Emissive { .. } => true,
-            MaterialKind::Principled(of) => !of.emission.value.is_black(),
+            MaterialKind::Principled(of) => !of.emission.is_black(),
             kind => kind.parts().into_iter().any(|part| self.emits(part)),
         }
     }
@@ -174,16 +174,22 @@ impl<'a> Materials<'a> {
                 roughness: self.data(roughness),
                 cover: self.data(cover),
             },
-            MaterialKind::Principled(of) => Material::Principled(Principled {
-                color: self.color(&of.color),
-                metallic: self.data(&of.metallic),
-                roughness: self.data(&of.roughness),
-                transmission: self.data(&of.transmission),
-                ior: of.ior.value as f32,
-                clearcoat: self.data(&of.clearcoat),
-                clearcoat_roughness: self.data(&of.clearcoat_roughness),
-                emission: of.emission.value,
-            }),
+            MaterialKind::Principled(of) => {
+                let emission = self.color(&of.emission);
+                let factor =
+                    if let bsdf::Input::Constant(radiance) = emission { radiance } else { Rgb::WHITE };
+                let model = Material::Principled(Principled {
+                    color: self.color(&of.color),
+                    metallic: self.data(&of.metallic),
+                    roughness: self.data(&of.roughness),
+                    transmission: self.data(&of.transmission),
+                    ior: of.ior.value as f32,
+                    clearcoat: self.data(&of.clearcoat),
+                    clearcoat_roughness: self.data(&of.clearcoat_roughness),
+                    emission: factor,
+                });
+                self.glow(model, emission)
+            }
             MaterialKind::Mask { base, opacity, cutoff } => Material::Mask {
                 base: self.of_scene(*base, radiance),
                 opacity: self.data(opacity),
@@ -244,6 +250,14 @@ impl<'a> Materials<'a> {
         match relief {
             Some(relief) => Material::Relief { base: self.of_scene(base, radiance), relief },
             None => self.lower(base, radiance),
+        }
+    }
+
+    /// A material that shines by a picture, if it does.
+    pub(super) fn glow(&mut self, model: Material, map: bsdf::Input) -> Material {
+        match map {
+            bsdf::Input::Texture(_) => Material::Glow { base: self.add(model), map },
+            bsdf::Input::Constant(_) => model,
         }
     }
 

@@ -212,8 +212,8 @@ impl Found<'_> {
                     self.add(Effect::Absorption, material.span);
                 }
             }
-            MaterialKind::Principled(of) if !of.emission.value.is_black() => {
-                self.add(Effect::MeshLights, of.emission.span);
+            MaterialKind::Principled(of) if !of.emission.is_black() => {
+                self.add(Effect::MeshLights, of.emission.span());
             }
             _ => {}
         }
@@ -334,7 +334,7 @@ pub fn shines(scene: &Scene, material: Handle<Material>) -> bool {
     let kind = &scene.materials[material].kind;
     match kind {
         MaterialKind::Emissive { .. } => true,
-        MaterialKind::Principled(of) => !of.emission.value.is_black(),
+        MaterialKind::Principled(of) => !of.emission.is_black(),
         _ => kind.parts().into_iter().any(|part| shines(scene, part)),
     }
 }

@@ -1,17 +1,17 @@
 //! Everything a render needs, from plain data to ready tables.
 
-use super::bsdf::{Bsdf, Material, MaterialId, Materials, Relief, facing};
+use super::bsdf::{Bsdf, Emission, Material, MaterialId, Materials, Relief, facing};
 use super::camera::Camera;
 use super::effects::Effects;
-use super::geometry::{Geometry, Hit, Shapes, SurfacePoint};
+use super::geometry::{Geometry, Hit, PrimId, Shapes, SurfacePoint};
 use super::ledger;
-use super::light::{Environment, Light, Lights, Sky};
+use super::light::{EmissionSample, Environment, Light, LightEnd, LightSample, Lights, Sky, Viewpoint};
 use super::media::Media;
 use super::sampler::hash_unit;
 use super::shape::solid::orthogonal_tangent;
 use super::shape::{Instance, Mesh, Solid};
 use super::texture::Texture;
-use crate::math::{Ray, Rgb, Vec3};
+use crate::math::{Ray, Rgb, Vec2, Vec3};
 use std::time::Instant;
 
 /// A world as plain data: what [`World::new`] is made of.
@@ -168,6 +168,45 @@ impl World {
 
     /// The radiance that the surface emits along `wo`.
     pub fn emitted(&self, surface: &SurfacePoint, wo: Vec3) -> Rgb {
-        self.materials.emission(surface.material).radiance(wo.dot(surface.n))
+        let cos = wo.dot(surface.n);
+        match self.materials.glows(surface.material) {
+            false => self.materials.emission(surface.material).radiance(cos),
+            true => self.materials.emission_at(surface).radiance(cos),
+        }
+    }
+
+    /// What a primitive emits at a point `p` on it, which may be off by its rounding, with the unit normal `n` there.
+    pub fn emission_at(&self, prim: PrimId, p: Vec3, n: Vec3) -> Emission {
+        let material = self.geometry.material(prim);
+        match self.materials.glows(material).then(|| self.geometry.point_near(prim, p, n)) {
+            Some(Some(surface)) => self.materials.emission_at(&surface),
+            _ => *self.materials.emission(material),
+        }
+    }
+
+    /// Draws a direction in which a point may see a light, see [`Lights::sample_li`].
+    pub fn sample_li(&self, from: &Viewpoint, u_choice: Vec2, u: Vec2) -> Option<LightSample> {
+        let drawn = self.lights.sample_li(&self.geometry, from, u_choice, u)?;
+        let (Some(prim), LightEnd::At { p, n, .. }) = (drawn.prim, drawn.end) else { return Some(drawn) };
+        if !self.materials.glows(self.geometry.material(prim)) {
+            return Some(drawn);
+        }
+        let radiance = self.emission_at(prim, p, n).radiance(-drawn.wi.dot(n));
+        Some(LightSample { radiance, ..drawn })
+    }
+
+    /// Draws a ray that leaves a light, see [`Light::sample_emission`].
+    pub fn sample_emission(&self, light: &Light, u_pos: Vec2, u_dir: Vec2) -> EmissionSample {
+        let drawn = light.sample_emission(&self.geometry, u_pos, u_dir);
+        let Light::Area { prim, emission } = light else { return drawn };
+        if !self.materials.glows(self.geometry.material(*prim)) {
+            return drawn;
+        }
+        let at = self.geometry.sample_area(*prim, u_pos);
+        let side = drawn.ray.d.dot(at.n);
+        let [here, mean] = [self.emission_at(*prim, at.p, at.n).radiance(side), emission.radiance(side)];
+        let share = |here: f32, mean: f32| if mean > 0.0 { here / mean } else { 0.0 };
+        let share = Rgb::new(share(here.r, mean.r), share(here.g, mean.g), share(here.b, mean.b));
+        EmissionSample { weight: drawn.weight * share, ..drawn }
     }
 }

@@ -44,7 +44,18 @@ impl Materials<'_> {
                 Material::Emissive { radiance: Rgb::from(*radiance), two_sided: false }
             }
             Look::Glass(of) => self.model_glass(mesh, of),
-            Look::Principled(of) => self.model_principled(mesh, of),
+            Look::Principled(of) => {
+                let (mut of, map) = (of.clone(), of.emission_map.as_ref());
+                let map = map.map(|map| self.map(mesh, map, Wanted::Color));
+                if let Some(None) = map {
+                    of.emission = [0.0; 3]; // its picture was left out, with a word
+                }
+                let model = self.model_principled(mesh, &of);
+                match map.flatten() {
+                    Some(map) => self.glow(model, Input::Texture(map)),
+                    None => model,
+                }
+            }
             Look::Mask { base, opacity, cutoff } => {
                 let base = self.look(mesh, base);
                 let has_alpha = |map: &Map| {

@@ -1,6 +1,7 @@
 //! From a hit to the full surface point, and rays that leave it.
 
 use super::instance::{PlacedMesh, Placement};
+use super::terminator::barycentrics;
 use super::{AreaSample, Geometry, Hit, Prim, PrimId, Spread, SurfacePoint};
 use crate::math::{DVec3, Ray, Vec2, Vec3, float};
 use crate::render::shape::Mesh;
@@ -20,6 +21,32 @@ impl Geometry {
             Prim::Solid(solid) => {
                 let solid_hit = SolidHit { t: hit.t, uv: hit.uv };
                 solid.surface_point(ray, solid_hit, hit.prim).met_by(ray, hit.t)
+            }
+        }
+    }
+}
+
+impl Geometry {
+    /// The full point of a primitive, as it stands when the shutter opens, nearest to `p`, which is off it by rounding at
+    /// most, with the unit normal `n` there; `None` where none is found.
+    pub fn point_near(&self, prim: PrimId, p: Vec3, n: Vec3) -> Option<SurfacePoint> {
+        let within = |[_, b1, b2]: [f64; 3]| Vec2::new(b1 as f32, b2 as f32);
+        match self.prim(prim) {
+            Prim::Triangle(mesh, triangle) => {
+                let corners = mesh.corners(triangle).map(Vec3::as_dvec3);
+                let b = within(barycentrics(corners, p.as_dvec3())?);
+                Some(triangle_point(mesh, triangle, b, prim))
+            }
+            Prim::Placed(placed, mesh, triangle) => {
+                let placement = placed.placement();
+                let corners = mesh.corners(triangle).map(|corner| placement.corner(corner.as_dvec3()));
+                let uv = within(barycentrics(corners, p.as_dvec3())?);
+                Some(placed_point(placed, placement, mesh, triangle, &Hit { t: 0.0, prim, uv }))
+            }
+            Prim::Solid(solid) => {
+                let lift = n * (1e-3 * solid.area().sqrt() as f32);
+                let ray = Ray { t_max: 2.0, ..Ray::new(p + lift, -lift) };
+                Some(solid.surface_point(&ray, solid.intersect(&ray)?, prim))
             }
         }
     }

@@ -46,7 +46,7 @@ impl Geometry {
 }
 
 /// The barycentrics of a point of a triangle; `None` of none.
-fn barycentrics([a, b, c]: [DVec3; 3], p: DVec3) -> Option<[f64; 3]> {
+pub(super) fn barycentrics([a, b, c]: [DVec3; 3], p: DVec3) -> Option<[f64; 3]> {
     let cross = (b - a).cross(c - a);
     let area2 = cross.length_squared();
     let second = (p - a).cross(c - a).dot(cross) / area2;

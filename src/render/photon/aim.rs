@@ -134,6 +134,7 @@ impl<'a> Aim<'a> {
                 };
                 let n = at.n * side;
                 let (dir, pdf) = self.cones(at.p, Some(n)).sample(u_dir, u_target)?;
+                let emission = self.world.emission_at(*prim, at.p, at.n);
                 let power = emission.radiance(side) * (dir.dot(n) / (at.pdf_area * pdf * chance * pmf));
                 Some(Aimed { ray: at.spawn(dir), power, from_infinity: false })
             }

@@ -75,7 +75,7 @@ impl Tracer<'_> {
         let choice = self.world.lights.choose(sampler.get_1d(Dim::PhotonLight));
         let Some((light, pmf)) = choice else { return };
         let (u_pos, u_dir) = (sampler.get_2d(Dim::PhotonPosition), sampler.get_2d(Dim::PhotonDirection));
-        let start = light.sample_emission(&self.world.geometry, u_pos, u_dir);
+        let start = self.world.sample_emission(light, u_pos, u_dir);
         let ray = start.ray.at_time(self.time);
         let mut flight = Flight::new(self.world, ray, start.weight * (share / pmf), sampler);
         while flight.bounce + 1 < self.max_depth {
