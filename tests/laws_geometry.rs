@@ -571,7 +571,8 @@ fn nothing_lies_between_a_floor_and_the_sides_of_a_small_box_that_face_it() {
 
 /// A mesh in a frame of its own, placed once.
 fn placed(mesh: Mesh, world_from_mesh: DAffine3) -> Geometry {
-    let instance = Instance { mesh: 0, world_from_mesh, material: MaterialId(3), source: SourceId(5) };
+    let instance =
+        Instance { mesh: 0, world_from_mesh, material: MaterialId(3), source: SourceId(5), motion: None };
     Geometry::new(Shapes { shared: vec![mesh], instances: vec![instance], ..Shapes::default() })
 }
 
@@ -648,7 +649,8 @@ fn instances_and_copies_agree_on_areas_normals_and_order() {
     let shape = mesh(positions, triangles);
     let count = shape.triangles.len() as u32;
     for (name, world_from_mesh) in placements() {
-        let instance = |material| Instance { mesh: 0, world_from_mesh, material, source: SourceId(0) };
+        let instance =
+            |material| Instance { mesh: 0, world_from_mesh, material, source: SourceId(0), motion: None };
         let mut copy = shape.clone();
         copy.positions = shape
             .positions

@@ -277,7 +277,7 @@ fn power_by_aiming(world: &World) -> f64 {
     let pass = Pass { index: 0, seed: 1, sampling: Sampling::Sobol };
     let mut sum = 0.0;
     for photon in 0..DRAWS {
-        if let Some(aimed) = aim.emit(&pass.photon_sampler(photon)) {
+        if let Some(aimed) = aim.emit(&pass.photon_sampler(photon), 0.0) {
             sum += arrives(world, &aimed.ray, aimed.power);
         }
     }

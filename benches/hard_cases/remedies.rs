@@ -128,6 +128,7 @@ fn spheres() -> Remedy {
         texture_from_object: DAffine3::IDENTITY,
         material: MaterialId(0),
         source: SourceId::default(),
+        motion: None,
     };
     let geometry = Geometry::build(Vec::new(), vec![solid]);
     let is_hit = |ray: &Ray| {

@@ -83,8 +83,10 @@ pub struct PrincipledLook {
     pub clearcoat: Shade,
     /// Of the coat.
     pub clearcoat_roughness: Shade,
-    /// In W/m²/sr.
+    /// In W/m²/sr, where its picture is white.
     pub emission: [f32; 3],
+    /// The picture that it shines by.
+    pub emission_map: Option<Map>,
 }
 
 /// A colour or number: a factor in [0, 1] times a picture, if there is one.
@@ -252,7 +254,16 @@ impl Look {
         let mut found: Vec<usize> =
             copy.shades().iter().filter_map(|shade| shade.map.as_ref()).map(|map| map.picture).collect();
         found.extend(self.normal_map().map(|map| map.picture));
+        found.extend(self.emission_map().map(|map| map.picture));
         found
+    }
+
+    /// The picture that it shines by.
+    pub fn emission_map(&self) -> Option<&Map> {
+        match self.innermost() {
+            Self::Principled(of) => of.emission_map.as_ref(),
+            _ => None,
+        }
     }
 
     /// The picture that bends its normals.

@@ -117,6 +117,56 @@ pub enum CheckError {
         #[label("this object")]
         object: Span,
     },
+    #[error("this motion flattens what it moves, {percent} % of the way along")]
+    #[diagnostic(
+        code(snell::check::flattening_motion),
+        help(
+            "a scale on its way from one sign to the other passes 0: turn the thing over with `rotate_y(180deg)`"
+        )
+    )]
+    FlatteningMotion {
+        percent: u32,
+        #[label("passes through something without volume")]
+        motion: Span,
+        /// Where the object begins.
+        #[label("of this object")]
+        object: Span,
+    },
+    #[error("this moves, and no shutter is open")]
+    #[diagnostic(
+        code(snell::check::closed_shutter),
+        severity(warning),
+        help("write `shutter: 50%` in the camera; without, all stands still as when the frame begins")
+    )]
+    ClosedShutter {
+        #[label("stands still in the picture")]
+        motion: Span,
+        #[label("`shutter` is 0 here")]
+        camera: Span,
+    },
+    #[error("the shutter is open, and nothing moves")]
+    #[diagnostic(
+        code(snell::check::idle_shutter),
+        severity(warning),
+        help("write `transform: moving(a, b)` for what is to move, or take the shutter away")
+    )]
+    IdleShutter {
+        #[label("changes nothing")]
+        shutter: Span,
+    },
+    #[error("a light moves")]
+    #[diagnostic(
+        code(snell::check::moving_light),
+        help(
+            "light from what moves is not in this version: let the light stand still, or close the shutter"
+        )
+    )]
+    MovingLight {
+        #[label("this shines")]
+        light: Span,
+        #[label("and moves while the shutter is open")]
+        motion: Span,
+    },
     #[error("a scene has one sky, and this is the second")]
     #[diagnostic(
         code(snell::check::second_sky),
@@ -347,6 +397,15 @@ pub enum CheckError {
         focus: Span,
         #[label("the focal length")]
         focal_length: Span,
+    },
+    #[error("this transform stretches or mirrors the camera")]
+    #[diagnostic(
+        code(snell::check::stretched_camera),
+        help("move it with `translate` and turn it with `rotate`; how much it sees is its `fov`")
+    )]
+    StretchedCamera {
+        #[label("a camera keeps its size")]
+        factor: Span,
     },
     #[error("the scene has no camera")]
     #[diagnostic(

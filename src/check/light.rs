@@ -4,7 +4,7 @@ use super::Check;
 use super::error::CheckError;
 use super::space::{Meshes, OwnMaterial};
 use crate::ir::light::{Daylight, EnvironmentRadiance};
-use crate::ir::{Brightness, Environment, Light, LightKind, MaterialKind, Method, Object, ShapeKind};
+use crate::ir::{Brightness, Environment, Light, LightKind, MaterialKind, Method, Object, Scene, ShapeKind};
 use crate::math::{DVec3, Rgb};
 use crate::schema::Type;
 use crate::source::{Span, Spanned};
@@ -115,13 +115,7 @@ impl Check<'_> {
     /// Notes planes that shine: light is drawn from an area, and theirs is endless.
     fn endless_lights(&mut self) {
         let scene = self.scene;
-        let mut emits: Vec<bool> = Vec::with_capacity(scene.materials.len());
-        for material in scene.materials.iter() {
-            emits.push(match &material.kind {
-                MaterialKind::Mix { a, b, .. } => emits[a.index()] || emits[b.index()],
-                kind => shines(kind),
-            });
-        }
+        let emits = emitting(scene);
         for object in &scene.objects {
             let shape = &scene.shapes[object.shape];
             let material = object.material.or(shape.material);
@@ -198,11 +192,22 @@ impl Check<'_> {
     }
 }
 
+/// Of each material, whether it or a part of it sends out light of its own.
+pub(super) fn emitting(scene: &Scene) -> Vec<bool> {
+    let mut emits: Vec<bool> = Vec::with_capacity(scene.materials.len());
+    for material in scene.materials.iter() {
+        // Parts are written before what is made of them.
+        let parts = material.kind.parts();
+        emits.push(shines(&material.kind) || parts.into_iter().any(|part| emits[part.index()]));
+    }
+    emits
+}
+
 /// Whether a material sends out light of its own.
 fn shines(kind: &MaterialKind) -> bool {
     match kind {
         MaterialKind::Emissive { .. } => true,
-        MaterialKind::Principled(of) => !of.emission.value.is_black(),
+        MaterialKind::Principled(of) => !of.emission.is_black(),
         _ => false,
     }
 }

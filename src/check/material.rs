@@ -149,7 +149,7 @@ impl Check<'_> {
                 self.share("`transmission`", of.transmission);
                 self.share("`clearcoat`", of.clearcoat);
                 self.share("`clearcoat_roughness`", of.clearcoat_roughness);
-                self.factor(Input::Constant(of.emission));
+                self.factor(of.emission);
             }
             MaterialKind::Mask { opacity, .. } => self.share("`opacity`", *opacity),
             MaterialKind::TwoSided { .. } | MaterialKind::NormalMap { .. } | MaterialKind::Bump { .. } => {}
@@ -379,7 +379,7 @@ impl Traits {
             MaterialKind::Principled(of) => {
                 let is_black = |input| matches!(input, Input::Constant(color) if color.is_black());
                 Self {
-                    shines: !of.emission.value.is_black(),
+                    shines: !of.emission.is_black(),
                     clear: !is_black(of.transmission),
                     coat: !is_black(of.clearcoat),
                     ..below

@@ -8,6 +8,7 @@ mod curve;
 mod error;
 mod light;
 mod material;
+mod motion;
 mod render;
 mod shape;
 mod space;
@@ -56,6 +57,7 @@ pub fn check(scene: Scene, problems: &mut Problems) -> Option<Checked> {
     check.transforms();
     check.lights();
     check.cameras();
+    check.motions();
     let is_sound = !check.problems.has_errors();
     check.materials();
     check.render();

@@ -28,8 +28,8 @@ impl Check<'_> {
 fn blame(object: &Object, is_bad: fn(&DAffine3) -> bool) -> (Span, String) {
     let mut product = DAffine3::IDENTITY;
     let guilty = object.transforms.iter().find(|step| {
-        product = step.matrix * product;
-        is_bad(&step.matrix) || is_bad(&product)
+        product = step.matrix() * product;
+        is_bad(&step.matrix()) || is_bad(&product)
     });
     let guilty = guilty.or(object.transforms.last());
     (guilty.map_or(object.span, |step| step.span), guilty.map_or_else(String::new, vanishing))
@@ -37,7 +37,7 @@ fn blame(object: &Object, is_bad: fn(&DAffine3) -> bool) -> (Span, String) {
 
 /// The axes along which a scale has the factor 0.
 fn vanishing(step: &TransformStep) -> String {
-    let diagonal = step.matrix.matrix3;
+    let diagonal = step.matrix().matrix3;
     let axes = ["x", "y", "z"].into_iter().enumerate().filter(|&(i, _)| diagonal.col(i).length() == 0.0);
     let axes: Vec<&str> = axes.map(|(_, name)| name).collect();
     match axes.as_slice() {

@@ -83,13 +83,13 @@ impl Page<'_> {
         let places: Vec<String> = self.plan.effects.iter().map(|used| self.place(used)).collect();
         let width = places.iter().map(|place| place.chars().count()).max().unwrap_or(0);
         let priced = !self.prices.is_empty();
-        let _ = write!(out, "\n  {:<15} {:<width$}  ", "effect", "called for by");
+        let _ = write!(out, "\n  {:<17} {:<width$}  ", "effect", "called for by");
         let _ = writeln!(out, "{}adds", if priced { "price     " } else { "" });
         for (used, place) in self.plan.effects.iter().zip(&places) {
             let is_out = self.left_out.iter().any(|left| left.effect == used.effect);
             let adds = if is_out { "left out" } else { used.effect.adds() };
             let price = if priced { format!("{:<10}", self.price_text(used.effect)) } else { String::new() };
-            let _ = writeln!(out, "  {:<15} {place:<width$}  {price}{adds}", used.effect.name());
+            let _ = writeln!(out, "  {:<17} {place:<width$}  {price}{adds}", used.effect.name());
         }
     }
 
@@ -123,7 +123,7 @@ impl Page<'_> {
                 _ => String::new(),
             };
             let note = if forced { "; forced on" } else { "" };
-            let _ = writeln!(out, "  {:<15} {why}{saved}{note}", effect.name());
+            let _ = writeln!(out, "  {:<17} {why}{saved}{note}", effect.name());
         }
         if let Some(price) = self.all_on {
             let least = price.share.max(0.0);

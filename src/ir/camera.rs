@@ -1,6 +1,7 @@
 //! Cameras and film.
 
-use crate::math::{DVec2, DVec3};
+use super::TransformStep;
+use crate::math::{DAffine3, DVec2, DVec3, Motion};
 use crate::source::{Span, Spanned};
 
 /// A camera.
@@ -20,8 +21,20 @@ pub struct Camera {
     pub lens: Lens,
     /// The film.
     pub film: Film,
+    /// The share of a frame for which the shutter is open, from the frame's beginning on; 0 takes what stands there then.
+    pub shutter: Spanned<f64>,
+    /// What moves it, the innermost first: applied to position, direction and up already, as they are when a frame begins.
+    pub transform: Vec<TransformStep>,
     /// Its block.
     pub span: Span,
+}
+
+impl Camera {
+    /// Where it is while its shutter is open, from where it is when a frame begins; `None` where it stands still.
+    pub fn seen_motion(&self) -> Option<Motion> {
+        let whole = Motion::new(self.transform.iter().map(|step| step.factor))?;
+        whole.part(whole.at(0.0).inverse(), self.shutter.value, DAffine3::IDENTITY)
+    }
 }
 
 /// A full angle, in radians.

@@ -8,6 +8,7 @@ use super::{
     LightKind, Material, MaterialKind, MetalColor, Object, Projection, RevolveMethod, Scene, ShapeKind,
     TextureKind,
 };
+use crate::math::motion::{Factor, Motion};
 use crate::math::{DAffine3, DVec2, DVec3, Rgb};
 use crate::source::Spanned;
 use std::fmt::Write;
@@ -208,7 +209,10 @@ fn material_kind(material: &Material) -> String {
             of.ior.value,
             input(of.clearcoat),
             input(of.clearcoat_roughness),
-            rgb(of.emission.value)
+            match of.emission {
+                Input::Constant(emission) => rgb(emission.value),
+                map @ Input::Texture(_) => input(map),
+            }
         ),
         MaterialKind::Mask { base, opacity, cutoff } => {
             let cutoff = cutoff.map_or(String::new(), |cutoff| format!(" cutoff {}", number(cutoff)));
@@ -331,6 +335,28 @@ fn dump_object(out: &mut String, scene: &Scene, object: &Object) {
         let columns = [m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis, m.translation].map(point);
         line(out, &format!("    world {}", columns.join(" ")));
     }
+    if let Some(motion) = &object.motion {
+        dump_motion(out, motion);
+    }
+}
+
+/// Where it has moved to when the frame ends, and the factors that lead there.
+fn dump_motion(out: &mut String, motion: &Motion) {
+    for factor in motion.factors() {
+        match *factor {
+            Factor::Straight { .. } if factor.is_still() => line(out, "    motion still"),
+            Factor::Straight { .. } => line(out, "    motion straight"),
+            Factor::Turn { axis, from, to } => {
+                line(
+                    out,
+                    &format!("    motion about {} from {} to {}", point(axis), number(from), number(to)),
+                );
+            }
+        }
+    }
+    let m = motion.at(1.0);
+    let columns = [m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis, m.translation].map(point);
+    line(out, &format!("    ends {}", columns.join(" ")));
 }
 
 fn light_text(light: &Light) -> String {

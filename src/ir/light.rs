@@ -17,6 +17,8 @@ pub struct Light {
     pub span: Span,
     /// Who put it there: `place`s, groups, calls, innermost first.
     pub trail: Vec<Span>,
+    /// The first `moving` around it, as it stands when a frame begins.
+    pub moves: Option<Span>,
 }
 
 /// The kinds of lights.

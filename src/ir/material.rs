@@ -27,6 +27,21 @@ pub enum Input {
     Texture(Spanned<Handle<Texture>>),
 }
 
+impl Input {
+    /// Whether it is surely 0 everywhere.
+    pub fn is_black(&self) -> bool {
+        matches!(self, Self::Constant(color) if color.value.is_black())
+    }
+
+    /// Where it is written.
+    pub const fn span(&self) -> Span {
+        match self {
+            Self::Constant(color) => color.span,
+            Self::Texture(texture) => texture.span,
+        }
+    }
+}
+
 /// The kinds of materials.
 #[derive(Clone, PartialEq, Debug)]
 pub enum MaterialKind {
@@ -188,6 +203,7 @@ impl MaterialKind {
                 of.transmission,
                 of.clearcoat,
                 of.clearcoat_roughness,
+                of.emission,
             ],
             Self::Mask { opacity, .. } => vec![*opacity],
             Self::NormalMap { map: texture, .. } | Self::Bump { height: texture, .. } => {
@@ -228,7 +244,7 @@ pub struct Principled {
     /// Of that coat.
     pub clearcoat_roughness: Input,
     /// The radiance that it emits.
-    pub emission: Spanned<Rgb>,
+    pub emission: Input,
 }
 
 /// Where a metal's colour comes from.

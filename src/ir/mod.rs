@@ -10,6 +10,7 @@ pub mod light;
 pub mod material;
 pub mod shape;
 
+use crate::math::motion::{Factor, Motion};
 use crate::math::{DAffine3, DMat3, Rgb};
 use crate::source::{Span, Spanned};
 pub use arena::{Arena, Handle};
@@ -73,8 +74,10 @@ pub struct Object {
     pub shape: Handle<Shape>,
     /// What it is made of; `None` where nothing said so: the file's own materials for a mesh, grey otherwise.
     pub material: Option<Handle<Material>>,
-    /// World space from object space: all transforms around it, composed.
+    /// World space from object space: all transforms around it, composed; of what moves, as it stands when a frame begins.
     pub world_from_object: DAffine3,
+    /// World space from object space in the time of a frame, and the first `moving` that says so; `None` of what stands still.
+    pub motion: Option<Spanned<Motion>>,
     /// The factors of `world_from_object`, the innermost first. Kept only where they flatten the object
     /// ([`is_singular`]) or nearly do ([`is_squeezing`]), to say which of them does; empty otherwise.
     pub transforms: Vec<TransformStep>,
@@ -120,9 +123,21 @@ pub fn is_squeezing(transform: &DAffine3) -> bool {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct TransformStep {
     /// The factor alone.
-    pub matrix: DAffine3,
+    pub factor: Factor,
     /// Where it was written.
     pub span: Span,
+}
+
+impl TransformStep {
+    /// The factor when a frame begins.
+    pub fn matrix(&self) -> DAffine3 {
+        self.factor.at(0.0)
+    }
+}
+
+/// Where the first factor that moves was written.
+pub fn first_moving(steps: &[TransformStep]) -> Option<Span> {
+    steps.iter().find(|step| !step.factor.is_still()).map(|step| step.span)
 }
 
 /// A `param` in this run.

@@ -5,9 +5,10 @@ use super::{LowerError, object_bounds};
 use crate::ir::camera::Fov;
 use crate::ir::{self, Focus, PixelPoint};
 use crate::load::Loaded;
-use crate::math::DVec3;
+use crate::math::{DAffine3, DVec3, Motion};
 use crate::render::camera::{CameraSpec, Filter};
 use crate::source::{Span, Spanned};
+use std::sync::Arc;
 
 /// A camera ready to be built.
 pub struct Seen {
@@ -46,9 +47,16 @@ pub fn camera(
             PixelPoint::Center => Filter::Box { radius: 0.0 },
             PixelPoint::Corner => Filter::Corner,
         },
+        motion: motion(camera, center).map(Arc::new),
     };
     let distance = distance.unwrap_or_else(|| (center - camera.position.value).length());
     Ok(Seen { spec, pixel_footprint: 2.0 * tan_half_fov_x * distance / f64::from(width) })
+}
+
+/// Where the camera is while its shutter is open, from where it is when that opens; both about the scene's `center`.
+fn motion(camera: &ir::Camera, center: DVec3) -> Option<Motion> {
+    let to_scene = DAffine3::from_translation(center);
+    camera.seen_motion()?.part(to_scene, 1.0, to_scene.inverse())
 }
 
 fn tan_half_fov_x(camera: &ir::Camera, aspect: f64) -> f64 {

@@ -8,7 +8,7 @@ use crate::render::camera::LensSpec;
 use crate::render::light::Environment;
 
 /// What rays ask about, by the name that a plan has for it.
-const ASKED: [(Effect, Effects); 7] = [
+const ASKED: [(Effect, Effects); 9] = [
     (Effect::LensBlur, Effects::LENS_BLUR),
     (Effect::Alpha, Effects::ALPHA),
     (Effect::Dispersion, Effects::DISPERSION),
@@ -16,6 +16,8 @@ const ASKED: [(Effect, Effects); 7] = [
     (Effect::NormalMaps, Effects::NORMAL_MAPS),
     (Effect::Caustics, Effects::CAUSTICS),
     (Effect::Indirect, Effects::INDIRECT),
+    (Effect::Motion, Effects::MOTION),
+    (Effect::TextureFiltering, Effects::TEXTURE_FILTERING),
 ];
 
 /// The effects that the engine is to simulate.
@@ -36,11 +38,24 @@ pub(super) fn surroundings(plan: &Plan, environment: Option<Environment>) -> Opt
     environment.filter(|_| plan.simulates(Effect::Environment))
 }
 
-/// A camera without an opening, where that is not simulated.
-pub(super) fn close_lens(plan: &Plan, camera: &mut Seen) {
+/// A camera without an opening, and one that stands still, where those are not simulated.
+pub(super) fn hold_camera(plan: &Plan, camera: &mut Seen) {
+    if !plan.simulates(Effect::Motion) {
+        camera.spec.motion = None;
+    }
     if let (false, Some(LensSpec::Thin(lens))) = (plan.simulates(Effect::LensBlur), &mut camera.spec.lens) {
         lens.radius = 0.0;
     }
+}
+
+/// Whether pictures are filtered; not by recursive ray tracing, whose pictures are to be those of others, pixel by pixel.
+pub(super) fn filters(plan: &Plan) -> bool {
+    plan.simulates(Effect::TextureFiltering) && plan.method != ir::Method::Classic
+}
+
+/// The share of a frame for which the shutter is open; 0 where motion is left out.
+pub(super) fn shutter(plan: &Plan, camera: &ir::Camera) -> f64 {
+    if plan.simulates(Effect::Motion) { camera.shutter.value } else { 0.0 }
 }
 
 /// Whether a method can do without an effect that the scene calls for; why not, in a sentence.

@@ -1,10 +1,10 @@
-//! Meshes that are placed more than once: read once, kept once, in a frame of their own.
+//! Meshes that are placed more than once, or move: read once, kept once, in a frame of their own.
 
 use super::tessellate::Triangles;
 use super::{Lowering, object};
 use crate::ir::{Object, Shape, ShapeKind};
 use crate::load::{Loaded, LoadedMesh};
-use crate::math::{DAffine3, DVec3};
+use crate::math::{DAffine3, DVec3, Motion};
 use crate::plan::LEAST_SHARED;
 use crate::render::shape::{Instance, MaterialId, Mesh, SourceId};
 use rustc_hash::FxHashMap;
@@ -70,13 +70,47 @@ impl Lowering<'_> {
         let world_from_mesh = DAffine3::from_translation(-self.center)
             * object.world_from_object
             * DAffine3::from_translation(middle);
-        self.shapes.instances.push(Instance { mesh: number, world_from_mesh, material, source });
+        let motion = self.motion(object, DAffine3::from_translation(middle));
+        self.shapes.instances.push(Instance { mesh: number, world_from_mesh, material, source, motion });
+    }
+
+    /// Whether an object moves while the shutter is open.
+    pub(super) fn moves(&self, object: &Object) -> bool {
+        self.motion(object, DAffine3::IDENTITY).is_some()
+    }
+
+    /// How an object moves about the scene's middle while the shutter is open; `inner` leads to its own frame.
+    pub(super) fn motion(&self, object: &Object, inner: DAffine3) -> Option<Arc<Motion>> {
+        let motion = object.motion.as_ref()?;
+        motion.part(inner, self.shutter, DAffine3::from_translation(-self.center)).map(Arc::new)
+    }
+
+    /// Places triangles that move.
+    pub(super) fn moving(
+        &mut self,
+        object: &Object,
+        triangles: &Triangles,
+        material: MaterialId,
+        source: SourceId,
+    ) {
+        let (mesh, middle) = self.keep(triangles);
+        let to_middle = DAffine3::from_translation(middle);
+        let world_from_mesh = DAffine3::from_translation(-self.center) * object.world_from_object * to_middle;
+        let motion = self.motion(object, to_middle);
+        self.shapes.instances.push(Instance { mesh, world_from_mesh, material, source, motion });
     }
 
     /// Adds a part of a mesh to what is shared.
     fn share(&mut self, key: Key, mesh: &Arc<LoadedMesh>, index: usize) -> (usize, DVec3) {
         let (_, scale, smooth) = key;
         let triangles = Triangles::part(&mesh.model.parts[index], f64::from_bits(scale), smooth);
+        let shared = self.keep(&triangles);
+        self.instances.parts.insert((key, index), shared);
+        shared
+    }
+
+    /// Keeps triangles in a frame of their own: their number among the shared meshes, and the middle of their box.
+    fn keep(&mut self, triangles: &Triangles) -> (usize, DVec3) {
         let (low, high) = triangles
             .positions
             .iter()
@@ -93,8 +127,6 @@ impl Lowering<'_> {
             object_from_world: DAffine3::from_translation(middle),
             source: SourceId(0),
         });
-        let shared = (self.shapes.shared.len() - 1, middle);
-        self.instances.parts.insert((key, index), shared);
-        shared
+        (self.shapes.shared.len() - 1, middle)
     }
 }

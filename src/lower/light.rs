@@ -55,6 +55,7 @@ impl Lowering<'_> {
                     texture_from_object: DAffine3::IDENTITY,
                     material: self.materials.add(Material::Emissive { radiance, two_sided: *two_sided }),
                     source,
+                    motion: None,
                 });
             }
             // The sky is made an environment of.
@@ -73,6 +74,7 @@ impl Lowering<'_> {
                     texture_from_object,
                     material,
                     source,
+                    motion: None,
                 });
             }
             LightKind::Rect { origin, edge_u, edge_v, two_sided } => {

@@ -32,6 +32,10 @@ pub struct Materials<'a> {
     by_model: FxHashMap<(usize, usize), MaterialId>,
     texture_by_handle: FxHashMap<(usize, Slot), TextureId>,
     images: FxHashMap<(PathBuf, Reading), Option<Arc<Image>>>,
+    /// Whether pictures are filtered.
+    filters: bool,
+    /// The coarser ones of those of `images` that are.
+    coarser: FxHashMap<*const Image, Arc<[Image]>>,
     gray: Option<MaterialId>,
     failed: Vec<LoadError>,
     origins: FxHashMap<MaterialId, Origin>,
@@ -59,17 +63,19 @@ pub struct Finished {
 }
 
 impl<'a> Materials<'a> {
-    /// None yet.
-    pub fn new(loaded: &'a Loaded<'a>, files: &'a dyn Files) -> Self {
+    /// None yet. Whether pictures are to be filtered, `filters` says.
+    pub fn new(loaded: &'a Loaded<'a>, files: &'a dyn Files, filters: bool) -> Self {
         Self {
             loaded,
             files,
+            filters,
             materials: Vec::new(),
             textures: Vec::new(),
             by_handle: FxHashMap::default(),
             by_model: FxHashMap::default(),
             texture_by_handle: FxHashMap::default(),
             images: FxHashMap::default(),
+            coarser: FxHashMap::default(),
             gray: None,
             failed: Vec::new(),
             origins: FxHashMap::default(),
@@ -103,7 +109,7 @@ impl<'a> Materials<'a> {
     pub fn emits(&self, handle: Handle<ir::Material>) -> bool {
         match &self.loaded.scene.materials[handle].kind {
             MaterialKind::Emissive { .. } => true,
-            MaterialKind::Principled(of) => !of.emission.value.is_black(),
+            MaterialKind::Principled(of) => !of.emission.is_black(),
             kind => kind.parts().into_iter().any(|part| self.emits(part)),
         }
     }
@@ -168,16 +174,22 @@ impl<'a> Materials<'a> {
                 roughness: self.data(roughness),
                 cover: self.data(cover),
             },
-            MaterialKind::Principled(of) => Material::Principled(Principled {
-                color: self.color(&of.color),
-                metallic: self.data(&of.metallic),
-                roughness: self.data(&of.roughness),
-                transmission: self.data(&of.transmission),
-                ior: of.ior.value as f32,
-                clearcoat: self.data(&of.clearcoat),
-                clearcoat_roughness: self.data(&of.clearcoat_roughness),
-                emission: of.emission.value,
-            }),
+            MaterialKind::Principled(of) => {
+                let emission = self.color(&of.emission);
+                let factor =
+                    if let bsdf::Input::Constant(radiance) = emission { radiance } else { Rgb::WHITE };
+                let model = Material::Principled(Principled {
+                    color: self.color(&of.color),
+                    metallic: self.data(&of.metallic),
+                    roughness: self.data(&of.roughness),
+                    transmission: self.data(&of.transmission),
+                    ior: of.ior.value as f32,
+                    clearcoat: self.data(&of.clearcoat),
+                    clearcoat_roughness: self.data(&of.clearcoat_roughness),
+                    emission: factor,
+                });
+                self.glow(model, emission)
+            }
             MaterialKind::Mask { base, opacity, cutoff } => Material::Mask {
                 base: self.of_scene(*base, radiance),
                 opacity: self.data(opacity),
@@ -238,6 +250,14 @@ impl<'a> Materials<'a> {
         match relief {
             Some(relief) => Material::Relief { base: self.of_scene(base, radiance), relief },
             None => self.lower(base, radiance),
+        }
+    }
+
+    /// A material that shines by a picture, if it does.
+    pub(super) fn glow(&mut self, model: Material, map: bsdf::Input) -> Material {
+        match map {
+            bsdf::Input::Texture(_) => Material::Glow { base: self.add(model), map },
+            bsdf::Input::Constant(_) => model,
         }
     }
 

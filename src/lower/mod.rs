@@ -68,12 +68,13 @@ pub fn lower(
     let mut lowering = Lowering {
         loaded,
         center,
-        materials: Materials::new(loaded, files),
+        materials: Materials::new(loaded, files, effects::filters(plan)),
         shapes: Shapes::default(),
         instances: Instances::count(loaded),
         sources: Vec::new(),
         is_smooth: plan.simulates(Effect::SmoothNormals),
         tessellation: plan.tessellation,
+        shutter: effects::shutter(plan, camera),
     };
     for object in &loaded.scene.objects {
         lowering.object(object);
@@ -87,7 +88,7 @@ pub fn lower(
         _ => ir::PixelPoint::Filter,
     };
     let mut camera = camera::camera(camera, pixel, loaded, center).map_err(|error| problems.push(error)).ok();
-    camera.iter_mut().for_each(|camera| effects::close_lens(plan, camera));
+    camera.iter_mut().for_each(|camera| effects::hold_camera(plan, camera));
 
     let Lowering { materials, shapes, sources, .. } = lowering;
     let Shapes { meshes, shared, instances, solids } = shapes;
@@ -162,6 +163,8 @@ struct Lowering<'a> {
     is_smooth: bool,
     /// Whether shapes are made of triangles.
     tessellation: Tessellation,
+    /// The share of a frame for which the shutter is open.
+    shutter: f64,
 }
 
 impl Lowering<'_> {

@@ -44,13 +44,17 @@ impl Lowering<'_> {
                     texture_from_object: object_from_solid,
                     material: MaterialId(0),
                     source,
+                    motion: self.motion(object, object_from_solid),
                 };
                 solid.material = self.material(written, || solid.area());
                 self.shapes.solids.push(solid);
             }
             Form::Triangles(triangles) => {
                 let material = self.material(written, || area(&triangles, &object.world_from_object));
-                self.mesh(&triangles, &object.world_from_object, material, source);
+                match self.moves(object) {
+                    true => self.moving(object, &triangles, material, source),
+                    false => self.mesh(&triangles, &object.world_from_object, material, source),
+                }
             }
         }
     }
@@ -197,7 +201,7 @@ impl Lowering<'_> {
                 (None, Some(index)) => self.materials.of_model(mesh, index),
                 _ => self.material(written, whole),
             };
-            if self.is_shared(object, mesh, i) {
+            if self.moves(object) || self.is_shared(object, mesh, i) {
                 self.instance(object, mesh, i, source, material);
                 continue;
             }

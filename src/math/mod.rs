@@ -6,6 +6,7 @@
 pub mod bounds;
 pub mod float;
 pub mod frame;
+pub mod motion;
 pub mod ray;
 pub mod rgb;
 pub mod warp;
@@ -13,5 +14,6 @@ pub mod warp;
 pub use bounds::Bounds;
 pub use frame::Frame;
 pub use glam::{Affine3A, DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
+pub use motion::Motion;
 pub use ray::Ray;
 pub use rgb::Rgb;

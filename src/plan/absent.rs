@@ -14,6 +14,8 @@ pub fn why(effect: Effect, scene: &Scene, camera: Option<&Camera>) -> String {
             Some(Lens::Fisheye { .. }) => "no lens opening: fisheye",
             Some(Lens::Prescription { .. }) | None => "no camera",
         },
+        Effect::Motion if camera.is_some_and(|camera| camera.shutter.value > 0.0) => "nothing moves",
+        Effect::Motion => "the shutter is open for no time",
         Effect::SoftShadows if !scene.lights.is_empty() => {
             "every light is a point or comes from one direction"
         }
@@ -21,6 +23,7 @@ pub fn why(effect: Effect, scene: &Scene, camera: Option<&Camera>) -> String {
         Effect::Environment => "no environment, no sky",
         Effect::MeshLights => "no object shines",
         Effect::Textures => "every colour is the same all over",
+        Effect::TextureFiltering => "no surface takes its colour from a picture",
         Effect::NormalMaps => "no normal map, no bump",
         Effect::Alpha => "no mask: nothing has holes",
         Effect::SmoothNormals => "no triangles with normals of their own",

@@ -5,6 +5,8 @@
 pub enum Effect {
     /// A lens opening: depth of field.
     LensBlur,
+    /// Things that move while the shutter is open, or the camera.
+    Motion,
     /// Lights with a size.
     SoftShadows,
     /// Light from everywhere.
@@ -13,6 +15,8 @@ pub enum Effect {
     MeshLights,
     /// Colours looked up at points.
     Textures,
+    /// Means of pictures where a pixel covers many of theirs.
+    TextureFiltering,
     /// Normals bent by pictures.
     NormalMaps,
     /// Surfaces with holes.
@@ -39,12 +43,14 @@ pub enum Effect {
 
 impl Effect {
     /// All of them, in the order in which they are listed.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::LensBlur,
+        Self::Motion,
         Self::SoftShadows,
         Self::Environment,
         Self::MeshLights,
         Self::Textures,
+        Self::TextureFiltering,
         Self::NormalMaps,
         Self::Alpha,
         Self::SmoothNormals,
@@ -62,10 +68,12 @@ impl Effect {
     pub const fn name(self) -> &'static str {
         match self {
             Self::LensBlur => "lens_blur",
+            Self::Motion => "motion",
             Self::SoftShadows => "soft_shadows",
             Self::Environment => "environment",
             Self::MeshLights => "mesh_lights",
             Self::Textures => "textures",
+            Self::TextureFiltering => "texture_filtering",
             Self::NormalMaps => "normal_maps",
             Self::Alpha => "alpha",
             Self::SmoothNormals => "smooth_normals",
@@ -89,10 +97,12 @@ impl Effect {
     pub const fn adds(self) -> &'static str {
         match self {
             Self::LensBlur => "a point of the lens for each path",
+            Self::Motion => "a moment for each path, a transform for each thing that moves",
             Self::SoftShadows => "a point of a light at each vertex",
             Self::Environment => "a table of the sky, a look at it by each ray that leaves",
             Self::MeshLights => "a light for each triangle that shines",
             Self::Textures => "pixels in memory, a look at them at each hit",
+            Self::TextureFiltering => "a third more pixels in memory, a gradient and two looks at each hit",
             Self::NormalMaps => "a gradient and a bent normal at each hit",
             Self::Alpha => "a look at the opacity of each hit, shadow rays too",
             Self::SmoothNormals => "a normal for each vertex",
@@ -111,7 +121,9 @@ impl Effect {
     pub const fn without(self) -> Option<&'static str> {
         match self {
             Self::LensBlur => Some("sharp at every distance"),
+            Self::Motion => Some("as it is when the shutter opens"),
             Self::Environment => Some("black around"),
+            Self::TextureFiltering => Some("with more noise on pictures far away"),
             Self::NormalMaps => Some("flat where normals were bent"),
             Self::Alpha => Some("whole where there were holes"),
             Self::SmoothNormals => Some("faceted"),

@@ -9,7 +9,9 @@ use super::look;
 use crate::check::{Region, region};
 use crate::ir::light::{EnvironmentRadiance, LightKind};
 use crate::ir::material::{Input, MaterialKind, Projection, TextureKind};
-use crate::ir::{Camera, Handle, Lens, Material, Object, RevolveMethod, Scene, Shape, ShapeKind, Texture};
+use crate::ir::{
+    Camera, Handle, Lens, Material, Object, RevolveMethod, Scene, Shape, ShapeKind, Texture, first_moving,
+};
 use crate::load::{Loaded, LoadedMesh};
 use crate::source::Span;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -110,6 +112,12 @@ impl Found<'_> {
             Lens::Prescription { file, .. } => self.add(Effect::LensBlur, file.span),
             _ => {}
         }
+        if camera.shutter.value > 0.0 {
+            let own = first_moving(&camera.transform).into_iter();
+            let things = self.scene.objects.iter().filter_map(|object| object.motion.as_ref());
+            let moving: Vec<Span> = own.chain(things.map(|motion| motion.span)).collect();
+            moving.into_iter().for_each(|span| self.add(Effect::Motion, span));
+        }
     }
 
     fn object(&mut self, object: &Object) {
@@ -135,7 +143,7 @@ impl Found<'_> {
         }
     }
 
-    /// What holds an object; `None` for what has no end.
+    /// What holds an object on all of its way; `None` for what has no end.
     fn region(&self, object: &Object) -> Option<Region> {
         region(object, self.scene, self.loaded)
     }
@@ -204,8 +212,8 @@ impl Found<'_> {
                     self.add(Effect::Absorption, material.span);
                 }
             }
-            MaterialKind::Principled(of) if !of.emission.value.is_black() => {
-                self.add(Effect::MeshLights, of.emission.span);
+            MaterialKind::Principled(of) if !of.emission.is_black() => {
+                self.add(Effect::MeshLights, of.emission.span());
             }
             _ => {}
         }
@@ -226,6 +234,9 @@ impl Found<'_> {
             _ => texture.span,
         };
         self.add(Effect::Textures, span);
+        if matches!(texture.kind, TextureKind::Image(_)) {
+            self.add(Effect::TextureFiltering, span);
+        }
         texture.kind.inputs().iter().for_each(|input| self.input(input));
     }
 
@@ -246,7 +257,7 @@ impl Found<'_> {
         if let Some(environment) = &scene.environment {
             self.add(Effect::Environment, environment.span);
             if let EnvironmentRadiance::Image(texture) = environment.radiance {
-                self.texture(texture);
+                self.add(Effect::Textures, scene.textures[texture].span);
             }
         }
     }
@@ -323,7 +334,7 @@ pub fn shines(scene: &Scene, material: Handle<Material>) -> bool {
     let kind = &scene.materials[material].kind;
     match kind {
         MaterialKind::Emissive { .. } => true,
-        MaterialKind::Principled(of) => !of.emission.value.is_black(),
+        MaterialKind::Principled(of) => !of.emission.is_black(),
         _ => kind.parts().into_iter().any(|part| shines(scene, part)),
     }
 }

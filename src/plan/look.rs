@@ -23,7 +23,9 @@ pub fn called(look: &Look) -> Called {
         Absorption, Alpha, Dielectrics, Dispersion, Indirect, MeshLights, NormalMaps, RoughSpecular, Specular,
     };
     let mut out = Called::default();
-    out.effects.extend((!look.pictures().is_empty()).then_some(Effect::Textures));
+    if !look.pictures().is_empty() {
+        out.effects.extend([Effect::Textures, Effect::TextureFiltering]);
+    }
     match look {
         Look::Diffuse { .. } => out.effects.push(Indirect),
         Look::Phong { specular, shininess, .. } => {

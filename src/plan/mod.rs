@@ -142,8 +142,10 @@ pub fn plan(loaded: &Loaded<'_>, camera: Option<&Camera>, wish: impl Into<Wish>)
         _ => (PHOTON_COUNT, PHOTON_K),
     };
     let depth = if method == Method::Classic { CLASSIC_DEPTH } else { DEPTH };
-    let draws =
-        |used: &EffectUse| matches!(used.effect, Effect::LensBlur | Effect::SoftShadows | Effect::MeshLights);
+    let draws = |used: &EffectUse| {
+        use Effect::{LensBlur, MeshLights, Motion, SoftShadows};
+        matches!(used.effect, LensBlur | SoftShadows | MeshLights | Motion)
+    };
     let is_exact =
         method == Method::Classic && render.classic.pixel != PixelPoint::Filter && !effects.iter().any(draws);
     Plan {

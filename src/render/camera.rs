@@ -10,7 +10,7 @@ pub use filter::{Filter, FilterSample};
 pub use prescription::{Interface, Paraxial, Prescription, image_distance, paraxial};
 pub use wide::{Mapping, View};
 
-use crate::math::{Ray, Vec2, Vec3};
+use crate::math::{Motion, Ray, Vec2, Vec3};
 use std::sync::Arc;
 
 /// What a camera is built from.
@@ -34,6 +34,8 @@ pub struct CameraSpec {
     pub height: u32,
     /// How samples spread about pixel centres.
     pub filter: Filter,
+    /// Where it is while the shutter is open, from where it is when that opens: a rotation and a shift. `None`: it stands still.
+    pub motion: Option<Arc<Motion>>,
 }
 
 /// How light gets in, where that is not through a point.
@@ -71,6 +73,7 @@ pub struct Camera {
     width: u32,
     height: u32,
     filter: Filter,
+    motion: Option<Arc<Motion>>,
 }
 
 impl Camera {
@@ -90,6 +93,7 @@ impl Camera {
             width: spec.width,
             height: spec.height,
             filter: spec.filter,
+            motion: spec.motion,
         }
     }
 
@@ -111,6 +115,17 @@ impl Camera {
     /// The angle across a pixel in the middle of the picture, in radians: what it covers grows by that for each metre.
     pub fn pixel_angle(&self) -> f32 {
         self.half_width.length() * 2.0 / self.width as f32
+    }
+
+    /// The cone that a pixel's ray stands for: its width where it leaves, in metres, and by how much that grows for each.
+    pub fn cone(&self) -> (f32, f32) {
+        let width = self.width as f32;
+        match &self.lens {
+            Some(LensSpec::View(View::Orthographic { half })) => (2.0 * half.x / width, 0.0),
+            Some(LensSpec::View(View::Panorama { half })) => (0.0, 2.0 * half.x / width),
+            Some(LensSpec::View(View::Fisheye { half, rim, .. })) => (0.0, 2.0 * half / (rim.x * width)),
+            None | Some(LensSpec::Thin(_) | LensSpec::Real(_)) => (0.0, self.pixel_angle()),
+        }
     }
 
     /// The ray of a pixel, counted from the top left; `None` where the lens lets nothing through to the film.
@@ -139,6 +154,15 @@ impl Camera {
         }
     }
 
+    /// A ray of [`Self::ray`] as it leaves at a time in [0, 1), from where the camera is then.
+    pub fn at(&self, camera: CameraRay, time: f32) -> CameraRay {
+        let Some(motion) = &self.motion else { return CameraRay { ray: camera.ray.at_time(time), ..camera } };
+        let moved = motion.at(time.into());
+        let o = moved.transform_point3(camera.ray.o.as_dvec3()).as_vec3();
+        let d = moved.transform_vector3(camera.ray.d.as_dvec3()).normalize().as_vec3();
+        CameraRay { ray: Ray { o, d, time, ..camera.ray }, ..camera }
+    }
+
     /// A ray of the camera's frame (right, up, forward) in the world.
     fn to_world(&self, ray: &Ray) -> Ray {
         let turned = |v: Vec3| self.right * v.x + self.up * v.y + self.forward * v.z;
@@ -161,6 +185,7 @@ mod tests {
             width: 4,
             height: 2,
             filter: Filter::Box { radius: 0.5 },
+            motion: None,
         }
     }
 

@@ -306,7 +306,7 @@ fn render_group<I: Integrator>(
     let picture = Region { x: 0, y: 0, width: world.camera.width(), height: world.camera.height() };
     let (mut pixels, mut cameras) = (Vec::new(), Vec::new());
     for pixel in group.clipped(&picture).pixels() {
-        let (sampler, ray) = camera_ray(world, pass, pixel);
+        let (sampler, ray) = camera_ray(world, pass, pixel, integrator.is_of_a_moment());
         if let Some(CameraRay { ray, weight }) = ray {
             pixels.push((pixel, weight));
             cameras.push((ray, sampler));
@@ -325,12 +325,27 @@ fn render_group<I: Integrator>(
     pixels.into_iter().zip(radiances).map(|((pixel, weight), seen)| (pixel, sample(seen, weight))).collect()
 }
 
-/// The ray of a pixel in a pass, if its lens lets one through, and the numbers of its path.
-fn camera_ray(world: &World, pass: Pass, pixel: [u32; 2]) -> (Sampler, Option<CameraRay>) {
+/// The ray of a pixel in a pass, if its lens lets one through, and the numbers of its path. It leaves at the pass's moment,
+/// or at one of its own.
+fn camera_ray(
+    world: &World,
+    pass: Pass,
+    pixel: [u32; 2],
+    is_of_a_moment: bool,
+) -> (Sampler, Option<CameraRay>) {
     let sampler = pass.camera_sampler(number(pixel));
     let blurs = world.effects.has(Effects::LENS_BLUR);
     let u_lens = if blurs { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
-    (sampler, world.camera.ray(pixel, sampler.get_2d(Dim::Filter), u_lens))
+    let mut ray = world.camera.ray(pixel, sampler.get_2d(Dim::Filter), u_lens);
+    if let (true, Some(camera)) = (world.effects.has(Effects::TEXTURE_FILTERING), &mut ray) {
+        let (width, angle) = world.camera.cone();
+        camera.ray = camera.ray.as_cone(width, angle);
+    }
+    if !world.effects.has(Effects::MOTION) {
+        return (sampler, ray);
+    }
+    let time = if is_of_a_moment { pass.moment(world) } else { sampler.get_1d(Dim::Time) };
+    (sampler, ray.map(|camera| world.camera.at(camera, time)))
 }
 
 /// Another number for each pixel.

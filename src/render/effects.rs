@@ -26,8 +26,12 @@ impl Effects {
     pub const CAUSTICS: Self = Self(1 << 5);
     /// Light that goes on from surfaces which scatter widely: without, only what comes straight from lights does.
     pub const INDIRECT: Self = Self(1 << 6);
+    /// Things or a camera that move while the shutter is open: without, all is as when it opens.
+    pub const MOTION: Self = Self(1 << 7);
+    /// Pictures of which a pixel covers many texels: without, each look takes a point of them.
+    pub const TEXTURE_FILTERING: Self = Self(1 << 8);
     /// All of them.
-    pub const ALL: Self = Self((1 << 7) - 1);
+    pub const ALL: Self = Self((1 << 9) - 1);
 
     /// Whether one of them is among these.
     #[inline]

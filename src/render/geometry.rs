@@ -6,7 +6,7 @@ mod sampling;
 mod surface;
 mod terminator;
 
-pub use gradient::Gradient;
+pub use gradient::{Gradient, Spread};
 pub use sampling::{AreaSample, DirectionSample, Outline};
 
 use super::accel::Wide;
@@ -54,6 +54,14 @@ pub struct SurfacePoint {
     pub prim: PrimId,
     /// The object it belongs to.
     pub source: SourceId,
+    /// When it is there: the time of the ray that met it.
+    pub time: f32,
+    /// The width of what the ray that met it stands for, in metres.
+    pub footprint: f32,
+    /// By how much that grows for each metre further on.
+    pub angle: f32,
+    /// How far that reaches over textures, where they are filtered.
+    pub spread: Spread,
 }
 
 /// What geometry is made of.
@@ -114,12 +122,12 @@ impl Geometry {
         // Boxes: of instances, then of the solids that have one.
         let mut boxes: Vec<_> = instances
             .iter()
-            .map(|placed| placed.bounds(shared[placed.instance.mesh].tree.bounds()))
+            .map(|placed| placed.swept_bounds(shared[placed.instance.mesh].tree.bounds()))
             .collect();
         let mut boxed: Vec<_> = (0..instances.len() as u32).collect();
         let mut unbounded = Vec::new();
         for (i, solid) in (0..).zip(&solids) {
-            match solid.bounds() {
+            match solid.swept_bounds() {
                 Some(bounds) => {
                     boxes.push(bounds);
                     boxed.push(instances.len() as u32 + i);
@@ -150,6 +158,12 @@ impl Geometry {
         self.tree.bytes() + self.shared.iter().map(|shared| shared.tree.bytes()).sum::<usize>()
     }
 
+    /// Whether anything is elsewhere at another time.
+    pub fn moves(&self) -> bool {
+        self.instances.iter().any(|placed| placed.instance.motion.is_some())
+            || self.solids.iter().any(|solid| solid.solid().motion.is_some())
+    }
+
     /// The number of primitives: triangles first, mesh by mesh and instance by instance, then solids.
     pub fn prim_count(&self) -> u32 {
         self.first_solid() + self.solids.len() as u32
@@ -166,9 +180,10 @@ impl Geometry {
         self.instances.iter().map(|placed| &placed.instance).zip(ranges)
     }
 
-    /// A box that holds each instance, in the order given.
+    /// A box that holds each instance at every time, in the order given.
     pub fn instance_bounds(&self) -> impl Iterator<Item = (&Instance, Bounds)> {
-        let bounds = |placed: &PlacedMesh| placed.bounds(self.shared[placed.instance.mesh].tree.bounds());
+        let bounds =
+            |placed: &PlacedMesh| placed.swept_bounds(self.shared[placed.instance.mesh].tree.bounds());
         self.instances.iter().map(move |placed| (&placed.instance, bounds(placed)))
     }
 
@@ -237,7 +252,7 @@ impl Geometry {
         let Some(placed) = self.instances.get(boxed as usize) else {
             return nearest.offer(self.hit_solid(boxed - self.instances.len() as u32, ray));
         };
-        let Some(ray) = placed.ray_mesh(ray) else { return };
+        let Some(ray) = placed.at(ray.time).ray_mesh(ray) else { return };
         let first = self.first_prims[self.meshes.len() + boxed as usize];
         // A shared mesh has nothing but triangles.
         self.shared[placed.instance.mesh].tree.trace::<ANY>(&ray, first, nearest, |_, _| {});

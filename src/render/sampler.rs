@@ -13,6 +13,8 @@ pub enum Dim {
     Filter,
     /// Where on the lens.
     Lens,
+    /// At which moment while the shutter is open.
+    Time,
     /// Which lobe of the bsdf, and reflection or refraction.
     Lobe(u32),
     /// Which direction.
@@ -51,6 +53,7 @@ impl Dim {
             Self::PhotonDirection => 4,
             Self::PhotonTarget => 12,
             Self::Wavelength => 10,
+            Self::Time => at(10, 1), // as the wavelength, one for each path
             Self::Lobe(depth) => at(5, depth),
             Self::Bsdf(depth) => at(6, depth),
             Self::LightChoice(depth) => at(7, depth),

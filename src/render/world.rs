@@ -1,17 +1,17 @@
 //! Everything a render needs, from plain data to ready tables.
 
-use super::bsdf::{Bsdf, Material, Materials, Relief, facing};
+use super::bsdf::{Bsdf, Emission, Material, MaterialId, Materials, Relief, facing};
 use super::camera::Camera;
 use super::effects::Effects;
-use super::geometry::{Geometry, Hit, Shapes, SurfacePoint};
+use super::geometry::{Geometry, Hit, PrimId, Shapes, SurfacePoint};
 use super::ledger;
-use super::light::{Environment, Light, Lights, Sky};
+use super::light::{EmissionSample, Environment, Light, LightEnd, LightSample, Lights, Sky, Viewpoint};
 use super::media::Media;
 use super::sampler::hash_unit;
 use super::shape::solid::orthogonal_tangent;
 use super::shape::{Instance, Mesh, Solid};
 use super::texture::Texture;
-use crate::math::{Ray, Rgb, Vec3};
+use crate::math::{Ray, Rgb, Vec2, Vec3};
 use std::time::Instant;
 
 /// A world as plain data: what [`World::new`] is made of.
@@ -142,6 +142,8 @@ impl World {
     pub fn bsdf_between(&self, surface: &SurfacePoint, wo: Vec3, media: &Media) -> Bsdf {
         let from_outside = wo.dot(surface.n) > 0.0;
         let (material, relief) = self.materials.face(surface.material, from_outside);
+        let wide = self.is_filtered(surface, material).then(|| self.widened(surface));
+        let surface = wide.as_ref().unwrap_or(surface);
         let bent = relief.map(|relief| self.bent(surface, relief, wo));
         // A bsdf is large: it is made once, and changed where it lies.
         let mut bsdf = self.materials.bsdf_of(material, bent.as_ref().unwrap_or(surface));
@@ -151,6 +153,16 @@ impl World {
             None => {}
         }
         bsdf
+    }
+
+    /// Whether more than a point of the pictures of a material is seen at once.
+    fn is_filtered(&self, surface: &SurfacePoint, material: MaterialId) -> bool {
+        surface.footprint > 0.0 && self.materials.is_filtered(material)
+    }
+
+    /// The surface with how far its footprint reaches over textures.
+    fn widened(&self, surface: &SurfacePoint) -> SurfacePoint {
+        SurfacePoint { spread: self.geometry.spread(surface), ..*surface }
     }
 
     /// The surface with its normal bent by a relief, for a viewer along `wo`.
@@ -163,6 +175,45 @@ impl World {
 
     /// The radiance that the surface emits along `wo`.
     pub fn emitted(&self, surface: &SurfacePoint, wo: Vec3) -> Rgb {
-        self.materials.emission(surface.material).radiance(wo.dot(surface.n))
+        let cos = wo.dot(surface.n);
+        match self.materials.glows(surface.material) {
+            false => self.materials.emission(surface.material).radiance(cos),
+            true => self.materials.emission_at(surface).radiance(cos),
+        }
+    }
+
+    /// What a primitive emits at a point `p` on it, which may be off by its rounding, with the unit normal `n` there.
+    pub fn emission_at(&self, prim: PrimId, p: Vec3, n: Vec3) -> Emission {
+        let material = self.geometry.material(prim);
+        match self.materials.glows(material).then(|| self.geometry.point_near(prim, p, n)) {
+            Some(Some(surface)) => self.materials.emission_at(&surface),
+            _ => *self.materials.emission(material),
+        }
+    }
+
+    /// Draws a direction in which a point may see a light, see [`Lights::sample_li`].
+    pub fn sample_li(&self, from: &Viewpoint, u_choice: Vec2, u: Vec2) -> Option<LightSample> {
+        let drawn = self.lights.sample_li(&self.geometry, from, u_choice, u)?;
+        let (Some(prim), LightEnd::At { p, n, .. }) = (drawn.prim, drawn.end) else { return Some(drawn) };
+        if !self.materials.glows(self.geometry.material(prim)) {
+            return Some(drawn);
+        }
+        let radiance = self.emission_at(prim, p, n).radiance(-drawn.wi.dot(n));
+        Some(LightSample { radiance, ..drawn })
+    }
+
+    /// Draws a ray that leaves a light, see [`Light::sample_emission`].
+    pub fn sample_emission(&self, light: &Light, u_pos: Vec2, u_dir: Vec2) -> EmissionSample {
+        let drawn = light.sample_emission(&self.geometry, u_pos, u_dir);
+        let Light::Area { prim, emission } = light else { return drawn };
+        if !self.materials.glows(self.geometry.material(*prim)) {
+            return drawn;
+        }
+        let at = self.geometry.sample_area(*prim, u_pos);
+        let side = drawn.ray.d.dot(at.n);
+        let [here, mean] = [self.emission_at(*prim, at.p, at.n).radiance(side), emission.radiance(side)];
+        let share = |here: f32, mean: f32| if mean > 0.0 { here / mean } else { 0.0 };
+        let share = Rgb::new(share(here.r, mean.r), share(here.g, mean.g), share(here.b, mean.b));
+        EmissionSample { weight: drawn.weight * share, ..drawn }
     }
 }

@@ -77,6 +77,7 @@ const RULES: &[(&str, Rule)] = &[
     ("rotate", Rule::Constructor),
     ("look_at", Rule::Constructor),
     ("matrix", Rule::Constructor),
+    ("moving", Rule::Constructor),
     ("samples", Rule::Constructor),
     ("passes", Rule::Constructor),
     ("time", Rule::Constructor),

@@ -4,7 +4,7 @@ use super::error::Error;
 use super::{Env, Resolver, Value};
 use crate::diag::did_you_mean;
 use crate::ir::{self, CurveKind, Filter, Stop, TransformStep};
-use crate::math::float::sin_cos64;
+use crate::math::motion::Factor;
 use crate::math::{DAffine3, DMat3, DVec3};
 use crate::schema::{self, Topic, Type};
 use crate::source::{Span, Spanned};
@@ -43,32 +43,50 @@ impl<'a> Resolver<'a> {
             "mitchell" => Value::Filter(Filter::Mitchell(x)),
             "blackman_harris" => Value::Filter(Filter::BlackmanHarris(x)),
             "image" => self.image_file(first, used),
-            _ => match self.matrix_of(name, args, x) {
-                Some(matrix) => Value::Transform([TransformStep { matrix, span: used }].into()),
+            "moving" => self.moving(args, used),
+            _ => match self.factor_of(name, args, x) {
+                Some(factor) => Value::Transform([TransformStep { factor, span: used }].into()),
                 None => Value::Poison,
             },
         }
     }
 
-    fn matrix_of(&mut self, name: &str, args: &[Spanned<Value<'a>>], x: f64) -> Option<DAffine3> {
-        let linear = |matrix| Some(DAffine3::from_mat3(matrix));
+    fn factor_of(&mut self, name: &str, args: &[Spanned<Value<'a>>], x: f64) -> Option<Factor> {
         match name {
-            "translate" => Some(DAffine3::from_translation(three(args)?)),
+            "translate" => Some(Factor::still(DAffine3::from_translation(three(args)?))),
             "scale" => match args {
-                [Spanned { value: Value::Number(_), .. }] => Some(DAffine3::from_scale(DVec3::splat(x))),
-                _ => Some(DAffine3::from_scale(three(args)?)),
+                [Spanned { value: Value::Number(_), .. }] => {
+                    Some(Factor::still(DAffine3::from_scale(DVec3::splat(x))))
+                }
+                _ => Some(Factor::still(DAffine3::from_scale(three(args)?))),
             },
-            "rotate_x" => linear(rotation(DVec3::X, x)),
-            "rotate_y" => linear(rotation(DVec3::Y, x)),
-            "rotate_z" => linear(rotation(DVec3::Z, x)),
+            "rotate_x" => Some(Factor::turned(DVec3::X, x)),
+            "rotate_y" => Some(Factor::turned(DVec3::Y, x)),
+            "rotate_z" => Some(Factor::turned(DVec3::Z, x)),
             "rotate" => {
                 let axis = self.unit(&args[0])?;
                 let Value::Number(angle) = args[1].value else { return None };
-                linear(rotation(axis, angle.value))
+                Some(Factor::turned(axis, angle.value))
             }
-            "look_at" => self.looking(args),
-            _ => self.sixteen(&args[0]),
+            "look_at" => self.looking(args).map(Factor::still),
+            _ => self.sixteen(&args[0]).map(Factor::still),
         }
+    }
+
+    /// The way from one transform to another; both must stand still.
+    fn moving(&mut self, args: &[Spanned<Value<'a>>], used: Span) -> Value<'a> {
+        let mut ends = [Vec::new(), Vec::new()];
+        for (end, arg) in ends.iter_mut().zip(args) {
+            let Value::Transform(steps) = &arg.value else { return Value::Poison };
+            if steps.iter().any(|step| !step.factor.is_still()) {
+                let help = "give it two transforms that stand still; motions follow each other with `then`";
+                return self.wrong_type("a transform that stands still", "one that moves", arg.span, help);
+            }
+            end.extend(steps.iter().map(|step| step.factor));
+        }
+        let [from, to] = ends;
+        let factors = Factor::between(&from, &to).into_iter();
+        Value::Transform(factors.map(|factor| TransformStep { factor, span: used }).collect())
     }
 
     fn unit(&mut self, vector: &Spanned<Value<'a>>) -> Option<DVec3> {
@@ -258,41 +276,4 @@ fn curve_kind(word: &str) -> Option<CurveKind> {
         "polyline" | "polygon" => CurveKind::Polyline,
         _ => return None,
     })
-}
-
-/// The rotation about a unit axis, counter-clockwise seen against it (Rodrigues).
-///
-/// Quarter turns are exact: sines and cosines within rounding of 0 and ±1 are taken as such.
-fn rotation(axis: DVec3, radians: f64) -> DMat3 {
-    let (sin, cos) = sin_cos64(radians);
-    let snap = |x: f64| if (x - x.round()).abs() < 1e-15 { x.round() } else { x };
-    let (sin, cos) = (snap(sin), snap(cos));
-    let DVec3 { x, y, z } = axis;
-    let k = 1.0 - cos;
-    DMat3::from_cols(
-        DVec3::new(cos + x * x * k, y * x * k + z * sin, z * x * k - y * sin),
-        DVec3::new(x * y * k - z * sin, cos + y * y * k, z * y * k + x * sin),
-        DVec3::new(x * z * k + y * sin, y * z * k - x * sin, cos + z * z * k),
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::f64::consts::FRAC_PI_2;
-
-    #[test]
-    fn a_quarter_turn_is_exact_and_counter_clockwise() {
-        assert_eq!(rotation(DVec3::Z, FRAC_PI_2) * DVec3::X, DVec3::Y);
-        assert_eq!(rotation(DVec3::X, FRAC_PI_2) * DVec3::Y, DVec3::Z);
-        assert_eq!(rotation(DVec3::Y, FRAC_PI_2) * DVec3::Z, DVec3::X);
-    }
-
-    #[test]
-    fn a_rotation_keeps_lengths_and_its_axis() {
-        let axis = DVec3::new(1.0, 2.0, 3.0).normalize();
-        let turned = rotation(axis, 1.234);
-        assert!((turned * axis - axis).length() < 1e-15);
-        assert!((turned.determinant() - 1.0).abs() < 1e-15);
-    }
 }

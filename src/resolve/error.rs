@@ -209,15 +209,6 @@ pub enum Error {
         #[label("not in this version")]
         used: Span,
     },
-    #[error("`{word}` is not in this version yet")]
-    #[diagnostic(code(snell::resolve::not_yet))]
-    NotYet {
-        word: String,
-        #[label("not in this version")]
-        used: Span,
-        #[help]
-        help: String,
-    },
 
     // ── Types and units ────────────────────────────────────────────────────────────────────────────────────────
     #[error("{wanted} is wanted here, and `{text}` is {found}")]

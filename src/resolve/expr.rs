@@ -96,9 +96,6 @@ impl<'a> Resolver<'a> {
         if let Some(color) = color::named(name) {
             return Value::Color(color);
         }
-        if let Some(error) = later(name, used) {
-            return self.poison(error);
-        }
         self.unknown_name(name, used, wanted, env)
     }
 
@@ -350,15 +347,6 @@ impl<'a> Resolver<'a> {
             }
         }
     }
-}
-
-/// The report of a function that the language will have later.
-fn later(name: &str, used: Span) -> Option<Error> {
-    let instead = match name {
-        "moving" => "things stand still in this version: write one transform",
-        _ => return None,
-    };
-    Some(Error::NotYet { word: name.to_owned(), used, help: instead.to_owned() })
 }
 
 /// The id of the name that an object has.

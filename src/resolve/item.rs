@@ -8,6 +8,7 @@ use super::scope::{Definition, Kind, Scope};
 use super::{Env, Resolver, Value};
 use crate::ir::TransformStep;
 use crate::math::DAffine3;
+use crate::math::motion::Factor;
 use crate::schema::{self, Type};
 use crate::source::Span;
 use crate::syntax::ast::{Block, Entry, Expr, ExprKind, FileIndex, Item, ItemKind, Name, Object, Place};
@@ -399,5 +400,5 @@ pub fn called_by_name(place: &Place) -> Option<&Object> {
 
 /// A translation as one step.
 pub fn translation(offset: crate::math::DVec3, span: Span) -> TransformStep {
-    TransformStep { matrix: DAffine3::from_translation(offset), span }
+    TransformStep { factor: Factor::still(DAffine3::from_translation(offset)), span }
 }

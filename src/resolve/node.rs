@@ -5,7 +5,7 @@ use super::error::Error;
 use super::{Resolver, Value};
 use crate::ir::light::Daylight;
 use crate::ir::{self, Handle, LightKind, TransformStep};
-use crate::math::DAffine3;
+use crate::math::{DAffine3, Motion};
 use crate::source::{Span, Spanned};
 use std::cell::Cell;
 use std::rc::Rc;
@@ -50,6 +50,8 @@ struct Surroundings<'n> {
     fallback: Option<Handle<ir::Material>>,
     /// The innermost `place` around it.
     placed: Option<Span>,
+    /// The first motion around it.
+    moves: Option<Span>,
     /// Places and groups around it, the outermost first.
     trail: Vec<Span>,
     names: Vec<u32>,
@@ -112,6 +114,7 @@ impl<'a> Resolver<'a> {
             forced: None,
             fallback: None,
             placed: None,
+            moves: None,
             trail: Vec::new(),
             names: Vec::new(),
         };
@@ -167,10 +170,15 @@ impl<'a> Resolver<'a> {
         } else {
             Vec::new()
         };
+        let motion = ir::first_moving(&node.transform).or(around.moves).and_then(|span| {
+            let factors = node.transform.iter().copied().chain(around.steps()).map(|step| step.factor);
+            Some(Spanned::new(Motion::new(factors)?, span))
+        });
         self.scene.objects.push(ir::Object {
             shape: shape_handle,
             material: around.forced.or(node.material).or(around.fallback),
             world_from_object,
+            motion,
             transforms,
             span: around.placed.unwrap_or(node.span),
             trail: around.trail_without_innermost_place(),
@@ -181,7 +189,7 @@ impl<'a> Resolver<'a> {
     fn emit_light(&mut self, light: &ir::Light, around: &Surroundings<'_>) {
         let Some(kind) = self.moved(light, around) else { return };
         let trail = around.trail.iter().rev().copied().collect();
-        self.scene.lights.push(ir::Light { kind, trail, ..light.clone() });
+        self.scene.lights.push(ir::Light { kind, trail, moves: around.moves, ..light.clone() });
     }
 
     /// The light in world space.
@@ -237,6 +245,7 @@ impl<'n> Surroundings<'n> {
         let mut inside = Self { outside: Some((self, node)), ..self.clone() };
         if !node.transform.is_empty() {
             inside.world = self.world * compose(&node.transform);
+            inside.moves = ir::first_moving(&node.transform).or(self.moves);
         }
         inside.trail.push(node.span);
         inside
@@ -256,7 +265,7 @@ impl<'n> Surroundings<'n> {
 
 /// The product of factors that are applied from first to last.
 pub fn compose(steps: &[TransformStep]) -> DAffine3 {
-    steps.iter().fold(DAffine3::IDENTITY, |product, step| step.matrix * product)
+    steps.iter().fold(DAffine3::IDENTITY, |product, step| step.matrix() * product)
 }
 
 /// The factor by which all lengths grow, unless they grow differently.

@@ -18,6 +18,16 @@ const CAMERA: &[Field] = &[
     field("fov_x", Type::Angle, "From its left to its right, instead of `fov`.").within(VIEW).like("60deg"),
     field("lens", Type::Lens, "How light gets in.").or_word("pinhole"),
     field("film", Type::Block("film"), "What it falls on.").like("{ size: 1024 x 768, tone: agx }"),
+    field(
+        "shutter",
+        Type::Number,
+        "The share of a frame for which it is open, from the frame's beginning on: what `moving` moves is blurred.",
+    )
+    .or(0.0)
+    .within(Range::closed(0.0, 1.0))
+    .like("50%"),
+    field("transform", Type::Transform, "Moves and turns the camera; with `moving`, while the shutter is open.")
+        .like("moving(translate(0m, 0m, 0m), translate(10cm, 0m, 0m))"),
 ];
 
 const FOCAL_LENGTH: Field =

@@ -285,6 +285,18 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "Sixteen numbers, row by row, for column vectors; translations in metres, the last row 0, 0, 0, 1.",
         "matrix([1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])",
     ),
+    function(
+        Transforms,
+        "moving",
+        &[&[of("from", Type::Transform), of("to", Type::Transform)]],
+        "a transform",
+        "Goes from one transform to another in the time of a frame; the camera's `shutter` says how much of it is seen.",
+        "moving(rotate_y(0deg), rotate_y(360deg))",
+    )
+    .computed(
+        "a way at an even speed for each pair of shifts, scales or turns about one axis, whole turns included; \
+         other pairs are taken apart into shift, rotation and stretch, and turn the short way round (Shoemake & Duff 1992)",
+    ),
     // ── Curves ─────────────────────────────────────────────────────────────────────────────────────────────────
     function(
         Curves,

@@ -98,7 +98,12 @@ const PRINCIPLED: &[Field] = &[
         .or(0.0)
         .within(SHARE),
     field("clearcoat_roughness", Type::NumberInput, "Of that coat.").or(0.0).within(SHARE),
-    field("emission", Type::Radiance, "What it shines by itself, in W/m²/sr.").or(0.0),
+    field(
+        "emission",
+        Type::ColorInput,
+        "What it shines by itself, in W/m²/sr; by a picture: `image(..) * 5`.",
+    )
+    .or(0.0),
 ];
 
 const MASK: &[Field] = &[

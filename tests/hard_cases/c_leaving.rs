@@ -4,7 +4,7 @@ use crate::laws::worlds::{camera, diffuse, empty, gray, path_tracing, quad, trac
 use crate::support::*;
 use snell::math::{Ray, Rgb, Vec2, Vec3};
 use snell::render::bsdf::{Glass, Material, Materials, Transport, facing};
-use snell::render::geometry::{Geometry, PrimId, SurfacePoint};
+use snell::render::geometry::{Geometry, PrimId, Spread, SurfacePoint};
 use snell::render::integrator::Event;
 use snell::render::light::{Falloff, Light};
 use snell::render::media::Media;
@@ -130,6 +130,10 @@ fn bent(ns: Vec3) -> SurfacePoint {
         material: MaterialId(0),
         prim: PrimId(0),
         source: SourceId(0),
+        time: 0.0,
+        footprint: 0.0,
+        angle: 0.0,
+        spread: Spread::NONE,
     }
 }
 

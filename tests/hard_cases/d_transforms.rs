@@ -143,7 +143,8 @@ fn instance_against_copy(count: usize) -> (usize, f64, usize, f64) {
         let to_world = |p: Vec3| world_from_mesh.transform_point3(p.as_dvec3()).as_vec3();
         let copy = mesh(shape.positions.iter().map(|p| to_world(*p)).collect(), shape.triangles.clone());
         let copy = scene(copy);
-        let instance = Instance { mesh: 0, world_from_mesh, material: MaterialId(0), source: SourceId(0) };
+        let instance =
+            Instance { mesh: 0, world_from_mesh, material: MaterialId(0), source: SourceId(0), motion: None };
         let instance = Geometry::new(Shapes {
             shared: vec![shape.clone()],
             instances: vec![instance],

@@ -20,7 +20,7 @@ fn floor() -> Parts {
 
 fn lamp(kind: SolidKind, world_from_object: DAffine3) -> Solid {
     let (material, source) = (MaterialId(1), SourceId::default());
-    Solid { kind, world_from_object, texture_from_object: DAffine3::IDENTITY, material, source }
+    Solid { kind, world_from_object, texture_from_object: DAffine3::IDENTITY, material, source, motion: None }
 }
 
 /// The irradiance of the origin of the floor, in W/m², by points on the lights.

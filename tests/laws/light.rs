@@ -79,6 +79,7 @@ fn a_lamp_without_end_is_found_by_chance() {
         texture_from_object: DAffine3::IDENTITY,
         material: MaterialId(1),
         source: SourceId::default(),
+        motion: None,
     }];
     assert_close(irradiance(parts), PI, 1e-6);
 }

@@ -8,7 +8,7 @@ use snell::math::{Rgb, Vec2, Vec3};
 use snell::render::bsdf::{
     Bsdf, Glass, Input, Material, Materials, Principled, Transport, fresnel_dielectric,
 };
-use snell::render::geometry::{PrimId, SurfacePoint};
+use snell::render::geometry::{PrimId, Spread, SurfacePoint};
 use snell::render::shape::{MaterialId, SourceId};
 
 /// A point on the plane z = 0 with this shading normal.
@@ -25,6 +25,10 @@ pub fn surface(ns: Vec3) -> SurfacePoint {
         material: MaterialId(0),
         prim: PrimId(0),
         source: SourceId(0),
+        time: 0.0,
+        footprint: 0.0,
+        angle: 0.0,
+        spread: Spread::NONE,
     }
 }
 

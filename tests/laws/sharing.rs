@@ -5,10 +5,12 @@ use super::light::sky_of_two_halves;
 use super::scattering::surface;
 use super::statistics::points;
 use super::worlds::{camera, cornell, cuboid, diffuse, emissive, empty, gray, quad, sphere};
-use snell::math::{Rgb, Vec3};
+use snell::math::motion::{Factor, Motion};
+use snell::math::{DAffine3, DVec3, Rgb, Vec3};
 use snell::render::bsdf::{Bsdf, Glass, Lobe, Material};
 use snell::render::integrator::{Integrator, PathTracer};
 use snell::render::{Parts, World};
+use std::sync::Arc;
 
 /// Rooms and yards, each with the share of the noise, as a variance, that sharing leaves at the most.
 fn worlds() -> Vec<(&'static str, Parts, f64)> {
@@ -85,6 +87,11 @@ fn rays_that_do_not_always_meet_the_same_are_not_shared() {
     let mut spread = cornell(SIDE, true);
     spread.materials[5] = Material::Glass(Glass { spread: 0.05, ..Glass::of_ior(1.6) });
     assert_eq!(PathTracer::new(&World::new(spread), 8).group_side(), 1);
+    let mut moving = cornell(SIDE, true);
+    let aside = DAffine3::from_translation(DVec3::X);
+    let shift = Factor::Straight { from: DAffine3::IDENTITY, to: aside };
+    moving.solids[0].motion = Motion::new([shift]).map(Arc::new);
+    assert_eq!(PathTracer::new(&World::new(moving), 8).group_side(), 1);
 }
 
 #[test]

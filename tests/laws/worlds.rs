@@ -61,6 +61,7 @@ pub fn sphere(center: Vec3, radius: f64, material: u32) -> Solid {
         texture_from_object: DAffine3::IDENTITY,
         material: MaterialId(material),
         source: SourceId::default(),
+        motion: None,
     }
 }
 
@@ -77,6 +78,7 @@ pub fn camera(position: Vec3, direction: Vec3, tan: f32, side: u32) -> Camera {
         width: side,
         height: side,
         filter: Filter::Box { radius: 0.5 },
+        motion: None,
     })
 }
 

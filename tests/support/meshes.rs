@@ -20,7 +20,14 @@ pub fn mesh(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
 
 pub fn solid(kind: SolidKind, world_from_object: DAffine3) -> Solid {
     let texture_from_object = DAffine3::IDENTITY;
-    Solid { kind, world_from_object, texture_from_object, material: MaterialId(0), source: SourceId(0) }
+    Solid {
+        kind,
+        world_from_object,
+        texture_from_object,
+        material: MaterialId(0),
+        source: SourceId(0),
+        motion: None,
+    }
 }
 
 pub fn scene(mesh: Mesh) -> Geometry {

@@ -2,7 +2,7 @@
 
 use super::json::At;
 use super::texture::Textures;
-use crate::asset::look::{GlassLook, Look, MapChannel, PrincipledLook, Shade};
+use crate::asset::look::{GlassLook, Look, Map, MapChannel, PrincipledLook, Shade};
 use crate::asset::model::{MeshError, ModelMaterial};
 use crate::asset::report::{About, ImportReport};
 
@@ -154,7 +154,7 @@ impl Reader<'_, '_, '_> {
         }
         let (transmission, volume) = (extension("transmission"), extension("volume"));
         let (coat, dispersion) = (extension("clearcoat"), extension("dispersion"));
-        let emission = self.emission()?;
+        let (emission, emission_map) = self.emission()?;
         self.specular(terms, transmission.is_some())?;
         let clear = match &transmission {
             Some(at) => {
@@ -205,6 +205,7 @@ impl Reader<'_, '_, '_> {
             clearcoat,
             clearcoat_roughness,
             emission,
+            emission_map,
         })))
     }
 
@@ -221,7 +222,7 @@ impl Reader<'_, '_, '_> {
         Ok((shade("clearcoat", MapChannel::Red)?, shade("clearcoatRoughness", MapChannel::Green)?))
     }
 
-    fn emission(&mut self) -> Result<[f32; 3], MeshError> {
+    fn emission(&mut self) -> Result<([f32; 3], Option<Map>), MeshError> {
         let strength = self.at.extension("KHR_materials_emissive_strength");
         let strength = strength.map(|at| at.number("emissiveStrength")).transpose()?.flatten().unwrap_or(1.0);
         let factor = self.at.numbers::<3>("emissiveFactor")?.unwrap_or([0.0; 3]);
@@ -232,11 +233,12 @@ impl Reader<'_, '_, '_> {
         if emission.iter().any(|x| !x.is_finite()) {
             return Err(self.at.wrong("shines beyond all numbers"));
         }
-        if emission != [0.0; 3] && self.at.get("emissiveTexture").is_some() {
-            self.report.ignored(About::Material, "light of materials that shine by a picture");
-            return Ok([0.0; 3]);
+        if emission == [0.0; 3] || self.at.get("emissiveTexture").is_none() {
+            return Ok((emission, None));
         }
-        Ok(emission)
+        // A picture that cannot be read is told of, and leaves no light: it would shine all over.
+        let map = self.textures.map(self.at, "emissiveTexture", self.report)?;
+        Ok(if map.is_some() { (emission, map) } else { ([0.0; 3], None) })
     }
 
     /// A share of the reflectance, where it is the same everywhere and for all colours, is that of another index.

@@ -246,6 +246,7 @@ impl Entry {
         let diffuse = self.diffuse_shade();
         if self.roughness.is_some() || self.metallic.is_some() {
             return Look::Principled(Box::new(PrincipledLook {
+                emission_map: None,
                 color: diffuse,
                 metallic: Shade::number(self.metallic.unwrap_or(0.0)),
                 roughness: Shade::number(self.roughness.unwrap_or(0.5)),

@@ -102,13 +102,13 @@ impl Panel {
 
     /// Whether some of an endless plane lies before this light; all of it that is not parallel does.
     fn meets_plane(&self, thing: &Thing<'_>, slack: f64) -> bool {
-        let Some((n, offset)) = plane_of(thing.kind, &thing.object.world_from_object) else { return true };
+        let Some((n, offset)) = plane_of(thing) else { return true };
         let is_parallel = n.cross(self.normal).length() <= ROUNDING;
         !is_parallel || self.normal.dot(n * offset - self.corners[0]) > slack
     }
 
     fn is_covered_by(&self, thing: &Thing<'_>) -> bool {
-        if let Some((n, offset)) = plane_of(thing.kind, &thing.object.world_from_object) {
+        if let Some((n, offset)) = plane_of(thing) {
             return self.is_near(n, n * offset);
         }
         match (thing.kind, &thing.region) {

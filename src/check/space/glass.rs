@@ -149,7 +149,7 @@ fn leaf(thing: &Thing<'_>) -> Option<(&'static str, &'static str)> {
 
 /// Whether an eye is on the inner side of an endless plane of glass.
 fn is_below(thing: &Thing<'_>, eye: &Region) -> bool {
-    let plane = thing.stuff.clear.and_then(|_| plane_of(thing.kind, &thing.object.world_from_object));
+    let plane = thing.stuff.clear.and_then(|_| plane_of(thing));
     plane.is_some_and(|(n, offset)| eye.support(n) < offset)
 }
 

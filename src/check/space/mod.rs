@@ -17,7 +17,7 @@ mod view;
 use super::{Check, Checked};
 use crate::diag::Problems;
 use crate::ir::{Handle, LightKind, Method, Object, Scene, Shape, ShapeKind};
-use crate::math::{DAffine3, DVec3, Vec3};
+use crate::math::{DVec3, Vec3};
 use crate::source::Span;
 use error::SpaceError;
 use region::Extent;
@@ -73,7 +73,9 @@ impl Meshes for NoMeshes {
 /// Notes what is doubtful about the places of things in a scene with meshes; in one without, [`check`](super::check) did.
 pub fn survey(scene: &Checked, meshes: &dyn Meshes, problems: &mut Problems) {
     if scene.is_sound && places_meshes(scene) {
-        Check::new(scene, problems, true).survey(meshes);
+        let mut check = Check::new(scene, problems, true);
+        check.moving_meshes(meshes);
+        check.survey(meshes);
     }
 }
 
@@ -84,7 +86,12 @@ pub fn region(object: &Object, scene: &Scene, meshes: &dyn Meshes) -> Option<Reg
         let parts = meshes.parts(object.shape);
         Extent::of(parts.iter().flat_map(|part| corners(part, kind)).flatten())
     };
-    Some(Region::of_shape(kind, corners)?.moved(&object.world_from_object))
+    Some(Region::of_shape(kind, corners)?.placed(object, longest_shutter(scene)))
+}
+
+/// The largest share of a frame for which one of the cameras looks.
+fn longest_shutter(scene: &Scene) -> f64 {
+    scene.cameras.iter().map(|camera| camera.shutter.value).fold(0.0, f64::max)
 }
 
 /// Notes the caustics that path tracing misses; `asked` is where the scene asks for that method, `None` where the command
@@ -154,6 +161,8 @@ struct Thing<'a> {
     stuff: Stuff,
     /// Its inside, if it surely has one.
     solid: Option<Solid>,
+    /// Whether it moves while a shutter is open.
+    moves: bool,
 }
 
 /// A light in its place, and the place that wrote it.
@@ -182,8 +191,13 @@ impl Reach {
 
 impl<'a> Survey<'a> {
     fn of(scene: &'a Scene, meshes: &dyn Meshes) -> Self {
-        let mut gathering =
-            Gathering { scene, meshes, stuffs: Stuffs::of(scene), surfaces: FxHashMap::default() };
+        let mut gathering = Gathering {
+            scene,
+            meshes,
+            stuffs: Stuffs::of(scene),
+            surfaces: FxHashMap::default(),
+            shutter: longest_shutter(scene),
+        };
         let things: Vec<Thing> = scene.objects.iter().filter_map(|object| gathering.thing(object)).collect();
         let mut lamps: Vec<Lamp> = scene.lights.iter().filter_map(lamp).collect();
         let shining = things.iter().filter(|thing| thing.stuff.shines);
@@ -212,6 +226,8 @@ struct Gathering<'a, 'b> {
     stuffs: Stuffs,
     /// The closed surfaces of meshes by shape, so that those placed often are welded once.
     surfaces: FxHashMap<usize, Option<Rc<Surface>>>,
+    /// The longest that a shutter is open.
+    shutter: f64,
 }
 
 impl<'a> Gathering<'a, '_> {
@@ -230,10 +246,13 @@ impl<'a> Gathering<'a, '_> {
         };
         let corners = || Extent::of(parts.iter().flat_map(|part| corners(part, &shape.kind)).flatten());
         let region = Region::of_shape(&shape.kind, corners);
-        let region = region.map(|region| region.moved(&object.world_from_object));
+        let region = region.map(|region| region.placed(object, self.shutter));
+        // Of what moves nothing is certain that is true of a moment: it is no wall, and has no inside.
+        let moves = object.motion.is_some() && self.shutter > 0.0;
+        let stuff = Stuff { is_opaque: stuff.is_opaque && !moves, ..stuff };
         let wanted = stuff.is_opaque || stuff.clear.is_some();
-        let solid = wanted.then(|| self.solid(object, &shape.kind, &parts)).flatten();
-        Some(Thing { object, kind: &shape.kind, region, is_painted: written.is_some(), stuff, solid })
+        let solid = (wanted && !moves).then(|| self.solid(object, &shape.kind, &parts)).flatten();
+        Some(Thing { object, kind: &shape.kind, region, is_painted: written.is_some(), stuff, solid, moves })
     }
 
     fn solid(&mut self, object: &Object, kind: &ShapeKind, parts: &[MeshPart<'_>]) -> Option<Solid> {
@@ -266,9 +285,13 @@ fn closed_surface(parts: &[MeshPart<'_>], kind: &ShapeKind) -> Option<Surface> {
     }
 }
 
-/// The plane of an object that is endless: its normal in the world, and the distance along it.
-fn plane_of(kind: &ShapeKind, world_from_object: &DAffine3) -> Option<(DVec3, f64)> {
-    let ShapeKind::Plane { normal, offset } = kind else { return None };
+/// The plane of an object that is endless and stands still: its normal in the world, and the distance along it.
+fn plane_of(thing: &Thing<'_>) -> Option<(DVec3, f64)> {
+    let ShapeKind::Plane { normal, offset } = thing.kind else { return None };
+    if thing.moves {
+        return None;
+    }
+    let world_from_object = &thing.object.world_from_object;
     // Normals go by the inverse transpose.
     let to_world = world_from_object.matrix3.inverse().transpose();
     let n = (to_world * normal.value).try_normalize()?;

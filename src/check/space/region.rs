@@ -1,7 +1,7 @@
 //! Bounded parts of space that hold a thing: exact for what is round or straight, a box around it for the rest.
 
-use crate::ir::{Camera, Curve, Lens, LightKind, ShapeKind};
-use crate::math::{DAffine3, DMat3, DVec2, DVec3};
+use crate::ir::{Camera, Curve, Lens, LightKind, Object, ShapeKind};
+use crate::math::{DAffine3, DMat3, DVec2, DVec3, Motion};
 
 /// A part of space. It holds all of a thing, so what is true of every point in it is true of the thing.
 #[derive(Clone, PartialEq, Debug)]
@@ -61,6 +61,23 @@ impl Region {
         })
     }
 
+    /// The region of an object in its place, from that in its own frame: of what moves a box around all that it passes while
+    /// a shutter is open for such a share of the frame.
+    pub(super) fn placed(&self, object: &Object, shutter: f64) -> Self {
+        let motion = object.motion.as_ref();
+        match motion.and_then(|motion| motion.part(DAffine3::IDENTITY, shutter, DAffine3::IDENTITY)) {
+            Some(motion) => self.swept(&motion),
+            None => self.moved(&object.world_from_object),
+        }
+    }
+
+    /// A box around all that it passes.
+    fn swept(&self, motion: &Motion) -> Self {
+        let Extent { min, max } = self.extent();
+        let (min, max) = motion.sweep_box(min, max);
+        Extent { min, max }.hull()
+    }
+
     /// The region of a profile turned about the y axis.
     pub(super) fn of_profile(profile: &Curve) -> Option<Self> {
         let (min, max) = control_box(profile)?;
@@ -88,6 +105,14 @@ impl Region {
 
     /// Where light enters a camera: a point, or the opening of its lens.
     pub(super) fn of_camera(camera: &Camera) -> Self {
+        let still = Self::of_still_camera(camera);
+        match camera.seen_motion() {
+            Some(motion) => still.swept(&motion),
+            None => still,
+        }
+    }
+
+    fn of_still_camera(camera: &Camera) -> Self {
         let (position, direction) = (camera.position.value, camera.direction.value);
         match &camera.lens {
             Lens::Thin { radius, .. } if radius.value > 0.0 => {

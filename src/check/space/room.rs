@@ -289,7 +289,7 @@ fn plane_wall((index, thing): (usize, &Thing<'_>)) -> Option<Wall> {
     if !thing.stuff.is_opaque {
         return None;
     }
-    let (normal, offset) = plane_of(thing.kind, &thing.object.world_from_object)?;
+    let (normal, offset) = plane_of(thing)?;
     let kind = WallKind::Plane { normal, offset };
     Some(Wall { kind, span: thing.object.span, owners: vec![index], noun: "an endless plane" })
 }

@@ -102,7 +102,7 @@ fn stuff(kind: &MaterialKind, part: impl Fn(Handle<Material>) -> Stuff) -> Stuff
         MaterialKind::Plastic { .. } => Stuff::MATT,
         MaterialKind::Principled(of) => {
             let base = if is_black(of.transmission) { Stuff::MATT } else { clear(None, of.roughness) };
-            Stuff { shines: !of.emission.value.is_black(), is_rough: true, ..base }
+            Stuff { shines: !of.emission.is_black(), is_rough: true, ..base }
         }
         MaterialKind::Layer { base, .. } => Stuff { is_rough: true, ..part(*base) },
         MaterialKind::Mask { base, .. } => Stuff { is_opaque: false, clear: None, ..part(*base) },

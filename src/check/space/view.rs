@@ -89,8 +89,8 @@ struct View {
 
 impl View {
     fn of(camera: &Camera) -> Option<Self> {
-        // What is no perspective has no pyramid, or no eye.
-        if !camera.lens.has_fov() {
+        // What is no perspective has no pyramid, or no eye; what moves has many.
+        if !camera.lens.has_fov() || camera.seen_motion().is_some() {
             return None;
         }
         let eye = camera.position.value;

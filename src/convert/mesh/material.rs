@@ -86,7 +86,16 @@ fn principled(of: &PrincipledLook, pictures: &Pictures) -> Vec<Entry> {
         fields.push(field("clearcoat_roughness", &of.clearcoat_roughness));
     }
     if of.emission != [0.0; 3] {
-        fields.push(Entry::field("emission", rgb(of.emission)));
+        let map = of.emission_map.as_ref().map(|map| image(map, pictures));
+        match map {
+            None => fields.push(Entry::field("emission", rgb(of.emission))),
+            Some(None) => {}
+            Some(Some(image)) if of.emission == [1.0; 3] => fields.push(Entry::field("emission", image)),
+            Some(Some(image)) => {
+                let product = format!("{} * {}", pictures.named(image), rgb(of.emission));
+                fields.push(Entry::field("emission", product));
+            }
+        }
     }
     fields
 }

@@ -9,6 +9,7 @@ use crate::math::{Rgb, Vec2, float};
 use crate::render::bsdf::Input;
 use crate::render::shape::MaterialId;
 use crate::render::texture::{self, ImageFilter, ImageTexture, Join, Texture, TextureId, Wrap};
+use std::sync::Arc;
 
 /// What the numbers of a picture are wanted as.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -43,7 +44,18 @@ impl Materials<'_> {
                 Material::Emissive { radiance: Rgb::from(*radiance), two_sided: false }
             }
             Look::Glass(of) => self.model_glass(mesh, of),
-            Look::Principled(of) => self.model_principled(mesh, of),
+            Look::Principled(of) => {
+                let (mut of, map) = (of.clone(), of.emission_map.as_ref());
+                let map = map.map(|map| self.map(mesh, map, Wanted::Color));
+                if let Some(None) = map {
+                    of.emission = [0.0; 3]; // its picture was left out, with a word
+                }
+                let model = self.model_principled(mesh, &of);
+                match map.flatten() {
+                    Some(map) => self.glow(model, Input::Texture(map)),
+                    None => model,
+                }
+            }
             Look::Mask { base, opacity, cutoff } => {
                 let base = self.look(mesh, base);
                 let has_alpha = |map: &Map| {
@@ -123,9 +135,11 @@ impl Materials<'_> {
         };
         let file = self.loaded.model_picture(mesh, map.picture)?.clone();
         let image = self.image(&file, Reading { linear: wanted == Wanted::Number, channel })?;
+        let coarser = if wanted == Wanted::Number { Arc::new([]) } else { self.coarser(&image) };
         let (sin, cos) = float::sin_cos(map.uv_rotation);
         Some(self.add_texture(Texture::Image(ImageTexture {
             image,
+            coarser,
             wrap: match map.wrap {
                 MapWrap::Repeat => Wrap::Repeat,
                 MapWrap::Clamp => Wrap::Clamp,

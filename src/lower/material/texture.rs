@@ -122,8 +122,10 @@ impl Materials<'_> {
             return Err(if let Wrap::Border(color) = wrap { color } else { GRAY });
         };
         let (sin, cos) = float::sin_cos(image.uv_rotation as f32);
+        let coarser = if slot == Slot::Color { self.coarser(&pixels) } else { Arc::new([]) };
         Ok(Texture::Image(ImageTexture {
             image: pixels,
+            coarser,
             wrap,
             filter: if image.linear_filter { ImageFilter::Linear } else { ImageFilter::Nearest },
             uv_scale: image.uv_scale.as_vec2(),
@@ -131,6 +133,16 @@ impl Materials<'_> {
             uv_offset: image.uv_offset.as_vec2(),
             projection: lower_projection(&image.projection),
         }))
+    }
+
+    /// A picture ever coarser, made once; nothing where pictures are not filtered. Only of colours: a mean of normals or of
+    /// roughness is not that of what a surface with these sends on.
+    pub(super) fn coarser(&mut self, image: &Arc<Image>) -> Arc<[Image]> {
+        if !self.filters {
+            return Arc::new([]);
+        }
+        let make = || image.coarser().into();
+        Arc::clone(self.coarser.entry(Arc::as_ptr(image)).or_insert_with(make))
     }
 
     /// The pixels of a picture file.

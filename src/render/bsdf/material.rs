@@ -121,6 +121,13 @@ pub enum Material {
         /// How it bends the normal.
         relief: Relief,
     },
+    /// A material that shines by a picture.
+    Glow {
+        /// What it is apart from that; what it emits is multiplied.
+        base: MaterialId,
+        /// The factor at each point; not negative.
+        map: Input,
+    },
 }
 
 /// A clear solid, or a pane.
@@ -237,10 +244,23 @@ impl Emission {
         }
     }
 
+    /// The same times a colour.
+    #[must_use]
+    pub fn times(&self, color: Rgb) -> Self {
+        Self { front: self.front * color, back: self.back * color }
+    }
+
     /// Whether no side emits.
     pub fn is_none(&self) -> bool {
         self.front.is_black() && self.back.is_black()
     }
+}
+
+/// What shines by a picture.
+struct Glow {
+    /// Where the picture is white.
+    emission: Emission,
+    map: Input,
 }
 
 /// All materials of a world with the textures they look up.
@@ -249,8 +269,12 @@ pub struct Materials {
     textures: Textures,
     /// By material: found once, so that hitting a surface that does not shine costs one look.
     emissions: Vec<Emission>,
+    /// By material: how it shines by a picture, if it does.
+    glows: Vec<Option<Glow>>,
     /// By material: what fills it, if it is clear.
     interiors: Vec<Option<Interior>>,
+    /// By material: whether it matters to its colours how much of a picture is seen at once.
+    filtered: Vec<bool>,
     /// What is simulated of them.
     effects: Effects,
 }
@@ -261,11 +285,15 @@ impl Materials {
     /// # Panics
     /// When a mix holds more lobes than a [`Bsdf`] has room for.
     pub fn new(materials: Vec<Material>, textures: Vec<Texture>) -> Self {
-        let (emissions, interiors) = (Vec::new(), Vec::new());
+        let (emissions, glows) = (Vec::new(), Vec::new());
+        let (interiors, filtered) = (Vec::new(), Vec::new());
         let textures = Textures::new(textures);
-        let mut this = Self { materials, textures, emissions, interiors, effects: Effects::ALL };
+        let effects = Effects::ALL;
+        let mut this = Self { materials, textures, emissions, glows, interiors, filtered, effects };
         let ids = (0..this.materials.len() as u32).map(MaterialId);
         this.emissions = ids.clone().map(|id| this.find_emission(id)).collect();
+        this.glows = ids.clone().map(|id| this.find_glow(id)).collect();
+        this.filtered = ids.clone().map(|id| this.find_filtered(id)).collect();
         this.interiors = ids.clone().map(|id| this.find_interior(id)).collect();
         let most = ids.map(|id| lobe_count(&this.materials, id)).max().unwrap_or(0);
         assert!(most <= Bsdf::MAX_LOBES, "a mix of materials has at most {} lobes", Bsdf::MAX_LOBES);
@@ -277,9 +305,22 @@ impl Materials {
         &self.materials[id.0 as usize]
     }
 
-    /// What a material emits.
+    /// What a material emits; on average, if it shines by a picture.
     pub fn emission(&self, id: MaterialId) -> &Emission {
         &self.emissions[id.0 as usize]
+    }
+
+    /// Whether a material shines by a picture.
+    pub fn glows(&self, id: MaterialId) -> bool {
+        self.glows[id.0 as usize].is_some()
+    }
+
+    /// What the surface emits at a point.
+    pub fn emission_at(&self, surface: &SurfacePoint) -> Emission {
+        match &self.glows[surface.material.0 as usize] {
+            None => *self.emission(surface.material),
+            Some(glow) => glow.emission.times(self.textures.color(glow.map, surface).map(|x| x.max(0.0))),
+        }
     }
 
     /// How the surface scatters at a point: its textures looked up.
@@ -299,7 +340,7 @@ impl Materials {
     #[inline]
     pub fn face(&self, id: MaterialId, from_outside: bool) -> (MaterialId, Option<Relief>) {
         match *self.get(id) {
-            Material::Mask { base, .. } => self.face(base, from_outside),
+            Material::Mask { base, .. } | Material::Glow { base, .. } => self.face(base, from_outside),
             Material::TwoSided { front, back } => {
                 self.face(if from_outside { front } else { back }, from_outside)
             }
@@ -313,6 +354,12 @@ impl Materials {
     /// What fills a solid of this material; `None` for what has no inside.
     pub fn interior(&self, id: MaterialId) -> Option<&Interior> {
         self.interiors[id.0 as usize].as_ref()
+    }
+
+    /// Whether it matters to the colours of a material how much of a picture is seen at once.
+    #[inline]
+    pub fn is_filtered(&self, id: MaterialId) -> bool {
+        self.filtered[id.0 as usize]
     }
 
     /// What is simulated of them.
@@ -395,6 +442,7 @@ impl Materials {
             Material::Principled(ref principled) => self.add_principled(principled, share, surface, bsdf),
             Material::Mask { base, .. }
             | Material::TwoSided { front: base, .. }
+            | Material::Glow { base, .. }
             | Material::Relief { base, .. } => self.add_lobes(base, share, surface, bsdf),
             Material::Emissive { .. } => {}
             Material::Mix { a, b, amount } => {
@@ -458,6 +506,7 @@ impl Materials {
             Material::Layer { base, .. }
             | Material::Mask { base, .. }
             | Material::TwoSided { front: base, .. }
+            | Material::Glow { base, .. }
             | Material::Relief { base, .. } => self.add_parts(*base, share, surface, parts),
             part => parts.push((share, part)),
         }
@@ -482,7 +531,40 @@ impl Materials {
                 Emission { front: self.find_emission(front).front, back: self.find_emission(back).front }
             }
             Material::Relief { base, .. } => self.find_emission(base),
+            Material::Glow { base, map } => self.find_emission(base).times(self.textures.mean(map)),
             _ => Emission::NONE,
+        }
+    }
+
+    fn find_glow(&self, id: MaterialId) -> Option<Glow> {
+        match *self.get(id) {
+            Material::Glow { base, map } => Some(Glow { emission: self.find_emission(base), map }),
+            Material::Relief { base, .. } => self.find_glow(base),
+            _ => None,
+        }
+    }
+
+    fn find_filtered(&self, id: MaterialId) -> bool {
+        let any = |inputs: &[Input]| {
+            inputs.iter().any(|input| matches!(input, Input::Texture(id) if self.textures.is_filtered(*id)))
+        };
+        match *self.get(id) {
+            Material::Diffuse { color } | Material::Mirror { color } | Material::Plastic { color, .. } => {
+                any(&[color])
+            }
+            Material::Whitted { diffuse, specular, .. } | Material::Phong { diffuse, specular, .. } => {
+                any(&[diffuse, specular])
+            }
+            Material::Metal { f0, edge, .. } => any(&[f0, edge]),
+            Material::Principled(of) => any(&[of.color]),
+            Material::Mix { a, b, .. } | Material::TwoSided { front: a, back: b } => {
+                self.find_filtered(a) || self.find_filtered(b)
+            }
+            Material::Layer { base, .. }
+            | Material::Mask { base, .. }
+            | Material::Glow { base, .. }
+            | Material::Relief { base, .. } => self.find_filtered(base),
+            Material::Glass(_) | Material::Emissive { .. } => false,
         }
     }
 
@@ -500,7 +582,9 @@ impl Materials {
             {
                 Some(Interior { ior, absorption: Rgb::BLACK, priority: 0, spread: 0.0 })
             }
-            Material::Relief { base, .. } | Material::Mask { base, .. } => self.find_interior(base),
+            Material::Relief { base, .. } | Material::Mask { base, .. } | Material::Glow { base, .. } => {
+                self.find_interior(base)
+            }
             _ => None,
         }
     }
@@ -606,6 +690,7 @@ fn collect_parts(materials: &[Material], id: MaterialId, covered: bool, parts: &
         }
         Material::Mask { base, .. }
         | Material::TwoSided { front: base, .. }
+        | Material::Glow { base, .. }
         | Material::Relief { base, .. } => collect_parts(materials, base, covered, parts),
         part => parts.push((part, covered)),
     }

@@ -95,6 +95,17 @@ pub struct BsdfSample {
     pub eta: f32,
 }
 
+impl BsdfSample {
+    /// By how much a path grows in width for each metre once it has gone this way, from how much it did before.
+    ///
+    /// What scatters widely is followed in few directions, each of which stands for the solid angle 1 / pdf about it: what it
+    /// meets may be blurred over a tenth of that angle's width without a trace in the picture.
+    pub fn angle(&self, before: f32) -> f32 {
+        const SHARE: f32 = 0.1;
+        if self.specular { before } else { before.max(SHARE / self.pdf.sqrt()) }
+    }
+}
+
 /// How light scatters at one point.
 #[derive(Clone, Copy, Debug)]
 pub struct Bsdf {

@@ -10,7 +10,7 @@ use crate::render::sampler::{Dim, Sampling};
 use crate::render::world::World;
 use rayon::prelude::*;
 
-/// Passes that are looked at: their camera rays are the picture's own.
+/// Passes that are looked at: their camera rays are the picture's own, each at a moment of its own.
 const MOST_PASSES: u32 = 16;
 
 /// The first surfaces of a region, `height × width` each, top row first. Means over the rays of a pixel, but for depth.
@@ -63,7 +63,7 @@ pub fn layers(world: &World, region: Region, seed: u64, passes: u32) -> Layers {
 
 /// The weight of a drawn direction is the albedo, in the mean over directions; of matt surfaces, each time.
 fn first(world: &World, pass: Pass, pixel: [u32; 2]) -> First {
-    let (sampler, ray) = camera_ray(world, pass, pixel);
+    let (sampler, ray) = camera_ray(world, pass, pixel, false);
     let Some(ray) = ray.map(|camera| camera.ray) else { return First::NOTHING };
     let Some(hit) = world.closest_hit(&ray) else { return First::NOTHING };
     let surface = world.interaction(&ray, &hit);

@@ -14,13 +14,39 @@ pub struct Gradient {
     pub p_object: [Vec3; 2],
 }
 
+/// How far what a ray stands for reaches over textures.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Spread {
+    /// In texture space: along the tangent, and along the bitangent.
+    pub uv: [Vec2; 2],
+    /// In the frame of projections, in metres.
+    pub space: f32,
+}
+
+impl Spread {
+    /// That of a line: textures are looked up at a point.
+    pub const NONE: Self = Self { uv: [Vec2::ZERO; 2], space: 0.0 };
+}
+
 impl Geometry {
+    /// How far the footprint of the ray that met a surface reaches over its textures. Across the ray: a surface seen at a
+    /// slant is covered farther in one direction, and there no more is blurred than in the other.
+    pub fn spread(&self, surface: &SurfacePoint) -> Spread {
+        let gradient = self.gradient(surface);
+        let [along, across] = gradient.p_object.map(Vec3::length);
+        Spread {
+            uv: gradient.uv.map(|uv| uv * surface.footprint),
+            space: along.min(across) * surface.footprint,
+        }
+    }
+
     /// The gradient at a point of a surface. On triangles exact; on solids from neighbouring points; 0 where there is none.
     pub fn gradient(&self, surface: &SurfacePoint) -> Gradient {
         let along = [surface.tangent, surface.ns.cross(surface.tangent)];
         match self.prim(surface.prim) {
             Prim::Triangle(mesh, corners) => triangle_gradient(mesh, corners, along),
             Prim::Placed(placed, mesh, corners) => {
+                let placed = placed.at(surface.time);
                 triangle_gradient(mesh, corners, along.map(|dir| placed.vector_mesh(dir)))
             }
             Prim::Solid(_) => self.solid_gradient(surface, along),
@@ -51,7 +77,7 @@ impl Geometry {
     /// The point of the same solid that lies across from `surface`, moved.
     fn beside(&self, surface: &SurfacePoint, moved: Vec3) -> Option<SurfacePoint> {
         let lift = surface.n * moved.length();
-        let ray = Ray { o: surface.p + moved + lift, d: -lift, t_max: 4.0 };
+        let ray = Ray { t_max: 4.0, ..Ray::new(surface.p + moved + lift, -lift).at_time(surface.time) };
         let hit = self.hit_solid(surface.prim.0 - self.first_solid(), &ray)?;
         Some(self.surface_point(&ray, &hit))
     }

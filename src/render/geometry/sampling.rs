@@ -1,4 +1,6 @@
 //! Points on primitives for light: drawn by area, or by the solid angle seen from a point.
+//!
+//! What shines stands still: all of it is as it is when the shutter opens.
 
 use super::surface::interpolate_point;
 use super::{Geometry, Prim, PrimId, SurfacePoint};
@@ -48,12 +50,14 @@ pub struct Outline {
 }
 
 impl Geometry {
-    /// A box that holds a primitive; `None` for what has no end.
+    /// A box that holds a primitive at every time; `None` for what has no end.
     pub fn prim_bounds(&self, prim: PrimId) -> Option<Bounds> {
         match self.prim(prim) {
             Prim::Triangle(mesh, triangle) => Some(Bounds::of(mesh.corners(triangle))),
-            Prim::Placed(placed, mesh, triangle) => Some(placed.bounds(Bounds::of(mesh.corners(triangle)))),
-            Prim::Solid(solid) => solid.bounds(),
+            Prim::Placed(placed, mesh, triangle) => {
+                Some(placed.swept_bounds(Bounds::of(mesh.corners(triangle))))
+            }
+            Prim::Solid(solid) => solid.swept_bounds(),
         }
     }
 
@@ -62,12 +66,12 @@ impl Geometry {
         match self.prim(prim) {
             Prim::Triangle(mesh, triangle) => Some(self.outline_of(prim, Bounds::of(mesh.corners(triangle)))),
             Prim::Placed(placed, mesh, triangle) => {
-                Some(self.outline_of(prim, placed.bounds(Bounds::of(mesh.corners(triangle)))))
+                Some(self.outline_of(prim, placed.placement().bounds(Bounds::of(mesh.corners(triangle)))))
             }
             Prim::Solid(solid) => {
                 let is_flat = matches!(solid.solid().kind, SolidKind::Disk);
                 let n = is_flat.then(|| solid.sample_area(Vec2::ZERO).n);
-                Some(Outline { bounds: solid.bounds()?, n })
+                Some(Outline { bounds: solid.swept_bounds()?, n })
             }
         }
     }
@@ -91,7 +95,7 @@ impl Geometry {
                 let (p, p_error) = interpolate_point(mesh.corners(triangle).map(|p| p.as_dvec3()), b);
                 (p.as_vec3(), p_error.as_vec3())
             }
-            Prim::Placed(placed, mesh, triangle) => placed.point(mesh, triangle, b),
+            Prim::Placed(placed, mesh, triangle) => placed.placement().point(mesh, triangle, b),
             Prim::Solid(solid) => return solid.sample_area(u),
         };
         let cross = self.cross(prim);
@@ -107,7 +111,7 @@ impl Geometry {
     fn cross(&self, prim: PrimId) -> DVec3 {
         match self.prim(prim) {
             Prim::Triangle(mesh, triangle) => cross_of_edges(mesh.corners(triangle)),
-            Prim::Placed(placed, mesh, triangle) => placed.cross(mesh, triangle),
+            Prim::Placed(placed, mesh, triangle) => placed.placement().cross(mesh, triangle),
             Prim::Solid(_) => DVec3::ZERO,
         }
     }

@@ -1,7 +1,8 @@
 //! From a hit to the full surface point, and rays that leave it.
 
-use super::instance::PlacedMesh;
-use super::{AreaSample, Geometry, Hit, Prim, PrimId, SurfacePoint};
+use super::instance::{PlacedMesh, Placement};
+use super::terminator::barycentrics;
+use super::{AreaSample, Geometry, Hit, Prim, PrimId, Spread, SurfacePoint};
 use crate::math::{DVec3, Ray, Vec2, Vec3, float};
 #[cfg(feature = "naive")]
 use crate::render::naive::{self, Remedy};
@@ -13,17 +14,55 @@ impl Geometry {
     /// Everything about the point where `ray` met the geometry.
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         match self.prim(hit.prim) {
-            Prim::Triangle(mesh, triangle) => triangle_point(mesh, triangle, hit.uv, hit.prim),
-            Prim::Placed(placed, mesh, triangle) => placed_point(placed, mesh, triangle, hit.uv, hit.prim),
-            Prim::Solid(solid) => solid.surface_point(ray, SolidHit { t: hit.t, uv: hit.uv }, hit.prim),
+            Prim::Triangle(mesh, triangle) => {
+                triangle_point(mesh, triangle, hit.uv, hit.prim).met_by(ray, hit.t)
+            }
+            Prim::Placed(placed, mesh, triangle) => {
+                placed_point(placed, &placed.at(ray.time), mesh, triangle, hit).met_by(ray, hit.t)
+            }
+            Prim::Solid(solid) => {
+                let solid_hit = SolidHit { t: hit.t, uv: hit.uv };
+                solid.surface_point(ray, solid_hit, hit.prim).met_by(ray, hit.t)
+            }
+        }
+    }
+}
+
+impl Geometry {
+    /// The full point of a primitive, as it stands when the shutter opens, nearest to `p`, which is off it by rounding at
+    /// most, with the unit normal `n` there; `None` where none is found.
+    pub fn point_near(&self, prim: PrimId, p: Vec3, n: Vec3) -> Option<SurfacePoint> {
+        let within = |[_, b1, b2]: [f64; 3]| Vec2::new(b1 as f32, b2 as f32);
+        match self.prim(prim) {
+            Prim::Triangle(mesh, triangle) => {
+                let corners = mesh.corners(triangle).map(Vec3::as_dvec3);
+                let b = within(barycentrics(corners, p.as_dvec3())?);
+                Some(triangle_point(mesh, triangle, b, prim))
+            }
+            Prim::Placed(placed, mesh, triangle) => {
+                let placement = placed.placement();
+                let corners = mesh.corners(triangle).map(|corner| placement.corner(corner.as_dvec3()));
+                let uv = within(barycentrics(corners, p.as_dvec3())?);
+                Some(placed_point(placed, placement, mesh, triangle, &Hit { t: 0.0, prim, uv }))
+            }
+            Prim::Solid(solid) => {
+                let lift = n * (1e-3 * solid.area().sqrt() as f32);
+                let ray = Ray { t_max: 2.0, ..Ray::new(p + lift, -lift) };
+                Some(solid.surface_point(&ray, solid.intersect(&ray)?, prim))
+            }
         }
     }
 }
 
 impl SurfacePoint {
+    /// The point as a ray met it that had come so far.
+    fn met_by(self, ray: &Ray, t: f32) -> Self {
+        Self { time: ray.time, footprint: ray.width + ray.angle * t, angle: ray.angle, ..self }
+    }
+
     /// The ray that leaves along `dir`, from an origin that lies beyond the rounding errors of the surface.
     pub fn spawn(&self, dir: Vec3) -> Ray {
-        Ray::new(self.origin(dir), dir)
+        Ray::new(self.origin(dir), dir).at_time(self.time).as_cone(self.footprint, self.angle)
     }
 
     /// Where rays start that leave it to the side of `dir`.
@@ -36,12 +75,12 @@ impl SurfacePoint {
     /// A target that lies on no surface, a point light, has zero error and any normal. Any other is seen from afar as no
     /// better known than the segment is long: its direction is rounded, and so is what the tests make of it.
     pub fn spawn_to(&self, target: Vec3, target_error: Vec3, target_n: Vec3) -> Ray {
-        segment(self.origin(target - self.p), target, target_error, target_n)
+        segment(self.origin(target - self.p), target, target_error, target_n).at_time(self.time)
     }
 
     /// Such a segment that ends here, from the [`Self::origin`] of another surface.
     pub fn seen_from(&self, o: Vec3) -> Ray {
-        segment(o, self.p, self.p_error, self.n)
+        segment(o, self.p, self.p_error, self.n).at_time(self.time)
     }
 }
 
@@ -50,7 +89,7 @@ fn segment(o: Vec3, target: Vec3, target_error: Vec3, target_n: Vec3) -> Ray {
     let reach = (target - o).abs().max_element() * float::gamma(8);
     let target_error = if target_error == Vec3::ZERO { target_error } else { target_error + reach };
     let end = offset(target, target_error, target_n, o - target);
-    Ray { o, d: end - o, t_max: 1.0 }
+    Ray { t_max: 1.0, ..Ray::new(o, end - o) }
 }
 
 impl AreaSample {
@@ -111,28 +150,43 @@ pub(super) fn triangle_point(mesh: &Mesh, triangle: [u32; 3], b: Vec2, prim: Pri
         material: mesh.material,
         prim,
         source: mesh.source,
+        time: 0.0,
+        footprint: 0.0,
+        angle: 0.0,
+        spread: Spread::NONE,
     }
 }
 
 /// The same on a triangle of a mesh that is placed.
-fn placed_point(placed: &PlacedMesh, mesh: &Mesh, triangle: [u32; 3], b: Vec2, prim: PrimId) -> SurfacePoint {
+fn placed_point(
+    placed: &PlacedMesh,
+    placement: &Placement,
+    mesh: &Mesh,
+    triangle: [u32; 3],
+    hit: &Hit,
+) -> SurfacePoint {
+    let b = hit.uv;
     let corners = mesh.corners(triangle).map(|p| p.as_dvec3());
-    let (p, p_error) = placed.point(mesh, triangle, b);
-    let n = placed.normal(cross_of_edges(mesh.corners(triangle))).as_vec3().normalize();
-    let ns = shading_normal(mesh, triangle, b, n, |normal| placed.normal(normal.as_dvec3()).as_vec3());
+    let (p, p_error) = placement.point(mesh, triangle, b);
+    let n = placement.normal(cross_of_edges(mesh.corners(triangle))).as_vec3().normalize();
+    let ns = shading_normal(mesh, triangle, b, n, |normal| placement.normal(normal.as_dvec3()).as_vec3());
     let (uv, tangent) = texture_frame(mesh, triangle, corners, b);
     SurfacePoint {
         p,
         p_error,
         n,
         ns,
-        tangent: orthogonal_tangent(placed.vector(tangent), ns),
+        tangent: orthogonal_tangent(placement.vector(tangent), ns),
         uv,
         // The frame of the mesh is the world as far as the mesh knows.
         p_object: mesh.object_from_world.transform_point3(interpolate_point(corners, b).0).as_vec3(),
         material: placed.instance.material,
-        prim,
+        prim: hit.prim,
         source: placed.instance.source,
+        time: 0.0,
+        footprint: 0.0,
+        angle: 0.0,
+        spread: Spread::NONE,
     }
 }
 

@@ -30,7 +30,7 @@ impl Geometry {
     fn corners_and_normals(&self, surface: &SurfacePoint) -> Option<([DVec3; 3], [DVec3; 3])> {
         let (mesh, triangle, placed) = match self.prim(surface.prim) {
             Prim::Triangle(mesh, triangle) => (mesh, triangle, None),
-            Prim::Placed(placed, mesh, triangle) => (mesh, triangle, Some(placed)),
+            Prim::Placed(placed, mesh, triangle) => (mesh, triangle, Some(placed.at(surface.time))),
             Prim::Solid(_) => return None,
         };
         let normals = mesh.normals.as_ref()?;
@@ -38,16 +38,15 @@ impl Geometry {
         let normals = triangle.map(|vertex| normals[vertex as usize].as_dvec3());
         Some(match placed {
             None => (corners, normals.map(DVec3::normalize_or_zero)),
-            Some(placed) => (
-                corners.map(|corner| placed.instance.world_from_mesh.transform_point3(corner)),
-                normals.map(|normal| placed.normal(normal)),
-            ),
+            Some(placed) => {
+                (corners.map(|corner| placed.corner(corner)), normals.map(|normal| placed.normal(normal)))
+            }
         })
     }
 }
 
 /// The barycentrics of a point of a triangle; `None` of none.
-fn barycentrics([a, b, c]: [DVec3; 3], p: DVec3) -> Option<[f64; 3]> {
+pub(super) fn barycentrics([a, b, c]: [DVec3; 3], p: DVec3) -> Option<[f64; 3]> {
     let cross = (b - a).cross(c - a);
     let area2 = cross.length_squared();
     let second = (p - a).cross(c - a).dot(cross) / area2;

@@ -83,7 +83,7 @@ impl PathTracer<'_> {
     ) -> Rgb {
         let (world, depth) = (self.world, vertex.depth);
         let (u_choice, u) = (sampler.get_2d(Dim::LightChoice(depth)), sampler.get_2d(Dim::Light(depth)));
-        let Some(drawn) = world.lights.sample_li(&world.geometry, &vertex.viewpoint(), u_choice, u) else {
+        let Some(drawn) = world.sample_li(&vertex.viewpoint(), u_choice, u) else {
             return Rgb::BLACK;
         };
         let (mut value, mut pdf_bsdf) = self.eval_pdf(vertex, Source::of(&drawn), drawn.wi);

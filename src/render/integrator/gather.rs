@@ -66,8 +66,9 @@ impl Gathering {
         let grid = Grid { eye, angle: CELL_ANGLE, offset: Vec3::ZERO, shrunk: 1.0 };
         let (mut one, mut two) = (0.0, 0.0);
         for i in 0..PILOTS {
-            let sampler = Pass { index: 0, seed: 0, sampling: Sampling::Sobol }.probe_sampler(i);
-            match tracer.probe(&grid, &sampler, &mut Counters::default()) {
+            let pass = Pass { index: 0, seed: 0, sampling: Sampling::Sobol };
+            let moment = pass.moment(tracer.world);
+            match tracer.probe(&grid, &pass.probe_sampler(i), moment, &mut Counters::default()) {
                 Probe::Nothing => {}
                 Probe::One => one += 1.0,
                 Probe::Two(..) => two += 1.0,
@@ -89,13 +90,15 @@ impl Gathering {
         let sampler = pass.probe_sampler(u32::MAX);
         let offset = sampler.get_2d(Dim::Filter).extend(sampler.get_1d(Dim::PhotonPosition));
         let grid = Grid { offset, shrunk: tracer.blur().sqrt() as f32, ..self.grid };
+        let moment = pass.moment(tracer.world);
         let chunks: Vec<_> = (0..self.probe_count.div_ceil(CHUNK))
             .into_par_iter()
             .filter(|_| !cancelled())
             .map(|chunk| {
                 let mut counters = Counters::default();
                 let probes = chunk * CHUNK..self.probe_count.min((chunk + 1) * CHUNK);
-                let found = probes.map(|i| tracer.probe(&grid, &pass.probe_sampler(i), &mut counters));
+                let found =
+                    probes.map(|i| tracer.probe(&grid, &pass.probe_sampler(i), moment, &mut counters));
                 (found.collect::<Vec<_>>(), counters)
             })
             .collect();
@@ -141,8 +144,8 @@ impl PathTracer<'_> {
         grid.cell(surface.p, n, left.min(MANY_VERTICES))
     }
 
-    /// Follows a path from anywhere in the picture to its second matt vertex, and asks for the light there.
-    fn probe(&self, grid: &Grid, sampler: &Sampler, counters: &mut Counters) -> Probe {
+    /// Follows a path from anywhere in the picture, at a moment, to its second matt vertex, and asks for the light there.
+    fn probe(&self, grid: &Grid, sampler: &Sampler, moment: f32, counters: &mut Counters) -> Probe {
         let camera = &self.world.camera;
         let [width, height] = [camera.width(), camera.height()];
         let at = sampler.get_2d(Dim::Filter) * Vec2::new(width as f32, height as f32);
@@ -150,6 +153,7 @@ impl PathTracer<'_> {
         let blurs = self.world.effects.has(Effects::LENS_BLUR);
         let u_lens = if blurs { sampler.get_2d(Dim::Lens) } else { Vec2::ZERO };
         let Some(camera_ray) = camera.ray(pixel, at.fract(), u_lens) else { return Probe::Nothing };
+        let camera_ray = camera.at(camera_ray, moment);
         let mut walk = Walk { is_clear: false, ..Walk::start(self.world, camera_ray.ray, sampler) };
         while walk.depth + 1 < self.max_depth {
             counters.rays += 1;

@@ -19,8 +19,9 @@ pub use ppm::PhotonMapper;
 pub use weight::mis_weight;
 pub use witness::{End, Event, Witness};
 
+use super::effects::Effects;
 use super::film::STREAMS;
-use super::sampler::{Sampler, Sampling};
+use super::sampler::{Dim, Sampler, Sampling};
 use super::world::World;
 use crate::math::{Ray, Rgb};
 use std::ops::AddAssign;
@@ -32,6 +33,12 @@ pub trait Integrator: Sync {
 
     /// Prepares what all camera rays of a pass share. Once `cancelled`, leaves it unfinished: no ray will ask for it.
     fn begin_pass(&mut self, pass: Pass, counters: &mut Counters, cancelled: &(dyn Fn() -> bool + Sync));
+
+    /// Whether all rays of a pass are of one moment, [`Pass::moment`], for they share what was found then: photons. The mean
+    /// over the passes is that over the time all the same.
+    fn is_of_a_moment(&self) -> bool {
+        false
+    }
 
     /// Of photons: the squared radius of this pass's discs over that of the first pass's. 0 of no photons.
     fn blur(&self) -> f64 {
@@ -83,6 +90,13 @@ impl Pass {
             Sampling::Sobol => Sampler::new(self.seed, self.index % STREAMS, item, self.index / STREAMS),
             Sampling::Independent => Sampler::new(self.seed, self.index, item, 0),
         }
+    }
+
+    /// The moment that all rays of a pass share where they have to, in [0, 1): 0 where nothing moves.
+    pub fn moment(&self, world: &World) -> f32 {
+        const EVERYWHERE: u64 = u64::MAX; // no pixel's number
+        let moves = world.effects.has(Effects::MOTION);
+        if moves { self.camera_sampler(EVERYWHERE).get_1d(Dim::Time) } else { 0.0 }
     }
 
     /// The numbers of a probe, counted from 0 in each pass: a path that tells about light for all of a pass.

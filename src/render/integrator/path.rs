@@ -92,6 +92,10 @@ impl Integrator for PathTracer<'_> {
         }
     }
 
+    fn is_of_a_moment(&self) -> bool {
+        self.caustics.is_some()
+    }
+
     fn blur(&self) -> f64 {
         self.caustics.as_ref().map_or(0.0, Caustics::blur)
     }

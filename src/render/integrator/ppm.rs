@@ -48,6 +48,10 @@ impl Integrator for PhotonMapper<'_> {
         *counters += emitted;
     }
 
+    fn is_of_a_moment(&self) -> bool {
+        true
+    }
+
     fn blur(&self) -> f64 {
         self.schedule.shrunk()
     }

@@ -111,7 +111,7 @@ struct Sight {
 
 /// Whether pixels can share: not where a ray does not always meet the same, or light has another colour for each path.
 pub fn can_share(world: &World) -> bool {
-    !world.materials.has_masks() && !world.materials.disperses()
+    !world.geometry.moves() && !world.materials.has_masks() && !world.materials.disperses()
 }
 
 /// Whether a surface scatters so widely that each direction from a point on it may as well start at its neighbours.

@@ -131,7 +131,7 @@ impl Walk {
         self.beta *= next.weight;
         self.eta_scale *= next.eta * next.eta;
         self.is_clear &= next.specular;
-        self.ray = surface.spawn(next.wi);
+        self.ray = surface.spawn(next.wi).as_cone(surface.footprint, next.angle(surface.angle));
         if next.through {
             let inwards = next.wi.dot(surface.n) < 0.0;
             self.beta *= self.media.pass(surface.material, inwards, &world.materials);

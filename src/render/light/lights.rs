@@ -6,6 +6,7 @@ use super::{AliasTable, Light, LightEnd, LightSample, Sky, Viewpoint};
 use crate::math::{Rgb, Vec2, Vec3};
 use crate::render::bsdf::{Emission, Materials};
 use crate::render::geometry::{Geometry, PrimId, SurfacePoint};
+use crate::render::sampler::{Dim, Sampler};
 use rustc_hash::FxHashMap;
 
 /// The lights of a world.
@@ -49,7 +50,7 @@ impl Lights {
     pub fn new(mut lights: Vec<Light>, sky: Option<Sky>, geometry: &Geometry, materials: &Materials) -> Self {
         let named = lights.len() as u32;
         for prim in shining_prims(geometry, materials) {
-            lights.push(Light::Area { prim, emission: *materials.emission(geometry.material(prim)) });
+            lights.push(Light::Area { prim, emission: mean_emission(prim, geometry, materials) });
         }
         let sky = sky.map(|sky| {
             lights.push(Light::Environment(Box::new(sky)));
@@ -69,12 +70,12 @@ impl Lights {
             by_prim: FxHashMap::default(),
             distant,
         };
-        all.find_emitters(named, geometry);
+        all.find_emitters(named, geometry, materials);
         all
     }
 
     /// Gathers what has a place: points first, then what shines, triangles in pairs where they make a parallelogram.
-    fn find_emitters(&mut self, named: u32, geometry: &Geometry) {
+    fn find_emitters(&mut self, named: u32, geometry: &Geometry, materials: &Materials) {
         let mut bounds = Vec::new();
         let mut add = |emitters: &mut Vec<Emitter>, emitter, of: Option<LightBounds>| {
             let of = of.filter(|of| of.intensity > 0.0 && of.intensity.is_finite())?;
@@ -82,7 +83,7 @@ impl Lights {
             emitters.push(emitter);
             Some(emitters.len() as u32 - 1)
         };
-        let mut pairs = parallelograms(&self.lights, geometry);
+        let mut pairs = parallelograms(&self.lights, geometry, materials);
         let mut waiting = None;
         for (i, light) in (0..).zip(&self.lights) {
             let Light::Area { prim, emission } = light else {
@@ -127,7 +128,14 @@ impl Lights {
         let sample = match choice {
             Choice::Distant(Light::Environment(sky)) => {
                 let (wi, pdf) = sky.sample_direct(u)?;
-                LightSample { wi, radiance: sky.radiance(wi), pdf, delta: false, end: LightEnd::Infinity }
+                LightSample {
+                    wi,
+                    radiance: sky.radiance(wi),
+                    pdf,
+                    delta: false,
+                    end: LightEnd::Infinity,
+                    prim: None,
+                }
             }
             Choice::Distant(light) => light.sample_li(geometry, from.p, u)?,
             Choice::Emitter(Emitter::One(light)) => {
@@ -251,14 +259,19 @@ impl Lights {
 const UNIT_STEP: f64 = 1.0 / 16_777_216.0;
 
 /// The parallelograms that pairs of shining triangles in a row make up, by their first primitive.
-fn parallelograms(lights: &[Light], geometry: &Geometry) -> FxHashMap<PrimId, Parallelogram> {
+fn parallelograms(
+    lights: &[Light],
+    geometry: &Geometry,
+    materials: &Materials,
+) -> FxHashMap<PrimId, Parallelogram> {
     let shining: FxHashMap<PrimId, ()> = lights
         .iter()
         .filter_map(|light| if let Light::Area { prim, .. } = light { Some((*prim, ())) } else { None })
         .collect();
     let mut found = FxHashMap::default();
     for (mesh, prims) in geometry.mesh_prims() {
-        if !shining.contains_key(&PrimId(prims.start)) {
+        // What shines by a picture is drawn from triangle by triangle.
+        if !shining.contains_key(&PrimId(prims.start)) || materials.glows(mesh.material) {
             continue;
         }
         let mut i = 0;
@@ -273,6 +286,33 @@ fn parallelograms(lights: &[Light], geometry: &Geometry) -> FxHashMap<PrimId, Pa
         }
     }
     found
+}
+
+/// What a primitive emits, on average over points spread evenly on it.
+///
+/// Never less than a hundredth of the picture's mean: what only seems dark is drawn from too.
+fn mean_emission(prim: PrimId, geometry: &Geometry, materials: &Materials) -> Emission {
+    const POINTS: u32 = 64;
+    const LEAST: f32 = 0.01;
+    let material = geometry.material(prim);
+    let overall = *materials.emission(material);
+    if !materials.glows(material) {
+        return overall;
+    }
+    let sampler = |i| Sampler::new(0, 0, 0, i);
+    let mut sum = Emission::NONE;
+    for i in 0..POINTS {
+        let at = geometry.sample_area(prim, sampler(i).get_2d(Dim::Light(0)));
+        if let Some(surface) = geometry.point_near(prim, at.p, at.n) {
+            let here = materials.emission_at(&surface);
+            sum = Emission { front: sum.front + here.front, back: sum.back + here.back };
+        }
+    }
+    let least = |sum: Rgb, overall: Rgb| {
+        let (mean, least) = (sum / POINTS as f32, overall * LEAST);
+        Rgb::new(mean.r.max(least.r), mean.g.max(least.g), mean.b.max(least.b))
+    };
+    Emission { front: least(sum.front, overall.front), back: least(sum.back, overall.back) }
 }
 
 /// The primitives that emit and that points can be drawn from.

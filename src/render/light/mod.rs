@@ -50,7 +50,7 @@ pub enum Light {
     Area {
         /// Which.
         prim: PrimId,
-        /// What.
+        /// What; of one that shines by a picture, on average.
         emission: Emission,
     },
     /// All directions at infinity.
@@ -85,6 +85,8 @@ pub struct LightSample {
     pub delta: bool,
     /// Where the light is.
     pub end: LightEnd,
+    /// The surface that shines, where it is drawn by itself.
+    pub prim: Option<PrimId>,
 }
 
 /// The far end of a shadow ray.
@@ -110,7 +112,14 @@ impl LightSample {
     fn of_surface(at: DirectionSample, emission: &Emission) -> Option<Self> {
         let radiance = emission.radiance(-at.wi.dot(at.n));
         let end = LightEnd::At { p: at.p, p_error: at.p_error, n: at.n, distance: at.distance };
-        (!radiance.is_black()).then_some(Self { wi: at.wi, radiance, pdf: at.pdf, delta: false, end })
+        (!radiance.is_black()).then_some(Self {
+            wi: at.wi,
+            radiance,
+            pdf: at.pdf,
+            delta: false,
+            end,
+            prim: None,
+        })
     }
 
     /// The open segment that must be free for the light to arrive.
@@ -149,7 +158,7 @@ impl Light {
                 let wi = to.try_normalize()?;
                 let end = LightEnd::At { p: *p, p_error: Vec3::ZERO, n: Vec3::ZERO, distance };
                 let radiance = *intensity / falloff.divisor(distance);
-                Some(LightSample { wi, radiance, pdf: 1.0, delta: true, end })
+                Some(LightSample { wi, radiance, pdf: 1.0, delta: true, end, prim: None })
             }
             Self::Spot(spot) => spot.sample_li(from),
             Self::Directional { direction, irradiance } => Some(LightSample {
@@ -158,14 +167,16 @@ impl Light {
                 pdf: 1.0,
                 delta: true,
                 end: LightEnd::Infinity,
+                prim: None,
             }),
             Self::Area { prim, emission } => {
-                LightSample::of_surface(geometry.sample_toward(*prim, from, u)?, emission)
+                let drawn = LightSample::of_surface(geometry.sample_toward(*prim, from, u)?, emission)?;
+                Some(LightSample { prim: Some(*prim), ..drawn })
             }
             Self::Environment(sky) => {
                 let (wi, pdf) = sky.sample(u);
                 let end = LightEnd::Infinity;
-                Some(LightSample { wi, radiance: sky.radiance(wi), pdf, delta: false, end })
+                Some(LightSample { wi, radiance: sky.radiance(wi), pdf, delta: false, end, prim: None })
             }
         }
     }

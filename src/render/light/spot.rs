@@ -47,7 +47,7 @@ impl Spot {
         let share = self.share(-wi);
         let end = LightEnd::At { p: self.p, p_error: Vec3::ZERO, n: Vec3::ZERO, distance };
         let radiance = self.intensity * (share / self.falloff.divisor(distance));
-        (share > 0.0).then_some(LightSample { wi, radiance, pdf: 1.0, delta: true, end })
+        (share > 0.0).then_some(LightSample { wi, radiance, pdf: 1.0, delta: true, end, prim: None })
     }
 
     /// A ray that leaves it, uniform in the outer cone.

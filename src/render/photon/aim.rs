@@ -94,10 +94,20 @@ impl<'a> Aim<'a> {
         self.targets.holds(material, prim, from_infinity)
     }
 
-    /// Draws a photon; `None` for one that carries nothing.
+    /// Draws a photon that is under way at `time`; `None` for one that carries nothing.
     ///
     /// The mean of the power over all draws is that of the light that leaves towards targets.
-    pub fn emit(&self, sampler: &Sampler) -> Option<Aimed> {
+    pub fn emit(&self, sampler: &Sampler, time: f32) -> Option<Aimed> {
+        let aimed = self.aimed(sampler)?;
+        let ray = aimed.ray.at_time(time);
+        // From infinity it starts where nothing bounded is behind it; what is endless may be.
+        if aimed.from_infinity && self.has_endless && self.world.any_hit(&Ray { d: -ray.d, ..ray }) {
+            return None;
+        }
+        Some(Aimed { ray, ..aimed })
+    }
+
+    fn aimed(&self, sampler: &Sampler) -> Option<Aimed> {
         let (index, pmf) = self.table.sample(sampler.get_1d(Dim::PhotonLight))?;
         let (u_dir, u_target) = (sampler.get_2d(Dim::PhotonDirection), sampler.get_1d(Dim::PhotonTarget));
         let u_pos = || sampler.get_2d(Dim::PhotonPosition);
@@ -124,6 +134,7 @@ impl<'a> Aim<'a> {
                 };
                 let n = at.n * side;
                 let (dir, pdf) = self.cones(at.p, Some(n)).sample(u_dir, u_target)?;
+                let emission = self.world.emission_at(*prim, at.p, at.n);
                 let power = emission.radiance(side) * (dir.dot(n) / (at.pdf_area * pdf * chance * pmf));
                 Some(Aimed { ray: at.spawn(dir), power, from_infinity: false })
             }
@@ -156,12 +167,8 @@ impl<'a> Aim<'a> {
         let density: f32 = balls.iter().enumerate().filter(is_inside).map(|(_, ball)| ball.albedo).sum();
         let pdf = density / (PI * total);
 
-        // It starts where nothing bounded is behind it; what is endless may be.
         let bounds = self.world.geometry.bounds();
         let o = p - dir * ((p - bounds.center()).dot(dir) + bounds.radius());
-        if self.has_endless && self.world.any_hit(&Ray::new(o, -dir)) {
-            return None;
-        }
         Some(Aimed { ray: Ray::new(o, dir), power: irradiance / pdf, from_infinity: true })
     }
 

@@ -57,8 +57,9 @@ impl<'a> Caustics<'a> {
             .into_par_iter()
             .filter(|_| !cancelled())
             .map(|chunk| {
-                let mut tracer =
-                    Tracer { caustics: self, photons: Vec::new(), counters: Counters::default() };
+                let time = pass.moment(self.world);
+                let counters = Counters::default();
+                let mut tracer = Tracer { caustics: self, time, photons: Vec::new(), counters };
                 for photon in chunk * CHUNK..count.min((chunk + 1) * CHUNK) {
                     tracer.emit(&pass.photon_sampler(photon), 1.0 / count as f32);
                 }
@@ -110,6 +111,8 @@ impl<'a> Caustics<'a> {
 /// Follows photons one after the other.
 struct Tracer<'a> {
     caustics: &'a Caustics<'a>,
+    /// When all of them are under way.
+    time: f32,
     photons: Vec<Photon>,
     counters: Counters,
 }
@@ -118,7 +121,7 @@ impl Tracer<'_> {
     /// One photon, which stands for `share` of all light; left on the surfaces that it reaches by way of sharp lobes alone.
     fn emit(&mut self, sampler: &Sampler, share: f32) {
         let Caustics { world, aim, max_depth, .. } = self.caustics;
-        let Some(start) = aim.emit(sampler) else { return };
+        let Some(start) = aim.emit(sampler, self.time) else { return };
         let mut flight = Flight::new(world, start.ray, start.power * share, sampler);
         while flight.bounce + 1 < *max_depth {
             let Some((surface, bsdf)) = flight.arrive(&mut self.counters) else { return };

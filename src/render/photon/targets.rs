@@ -3,7 +3,7 @@
 use super::gathers;
 use crate::math::{Bounds, Vec2, Vec3};
 use crate::render::bsdf::{MaterialId, Materials};
-use crate::render::geometry::{Geometry, PrimId, SurfacePoint};
+use crate::render::geometry::{Geometry, PrimId, Spread, SurfacePoint};
 use crate::render::shape::{Mesh, Solid, SolidKind, SourceId};
 
 /// The most balls: each is looked at for each photon, which the rays saved must pay for.
@@ -132,6 +132,10 @@ fn somewhere(material: MaterialId, uv: Vec2) -> SurfacePoint {
         material,
         prim: PrimId(0),
         source: SourceId::default(),
+        time: 0.0,
+        footprint: 0.0,
+        angle: 0.0,
+        spread: Spread::NONE,
     }
 }
 
@@ -144,7 +148,7 @@ fn triangle_ball(mesh: &Mesh, corners: [u32; 3], albedo: f32) -> Ball {
 
 fn solid_ball(solid: &Solid, bounds: Bounds, albedo: f32) -> Ball {
     match solid.kind {
-        SolidKind::Sphere | SolidKind::Disk => {
+        SolidKind::Sphere | SolidKind::Disk if solid.motion.is_none() => {
             // The unit ball grows by at most √‖MᵀM‖∞, and by exactly that where the axes stay orthogonal.
             let m = &solid.world_from_object.matrix3;
             let axes = [m.x_axis, m.y_axis, m.z_axis];

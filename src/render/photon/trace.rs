@@ -45,7 +45,9 @@ pub fn trace_photons(
         .into_par_iter()
         .filter(|_| !cancelled())
         .map(|chunk| {
-            let mut tracer = Tracer { world, max_depth, photons: Vec::new(), counters: Counters::default() };
+            let time = pass.moment(world);
+            let counters = Counters::default();
+            let mut tracer = Tracer { world, max_depth, time, photons: Vec::new(), counters };
             for photon in chunk * CHUNK..count.min((chunk + 1) * CHUNK) {
                 tracer.emit(&pass.photon_sampler(photon), 1.0 / count as f32);
             }
@@ -63,6 +65,8 @@ pub fn trace_photons(
 struct Tracer<'a> {
     world: &'a World,
     max_depth: u32,
+    /// When all of them are under way.
+    time: f32,
     photons: Vec<Photon>,
     counters: Counters,
 }
@@ -73,8 +77,9 @@ impl Tracer<'_> {
         let choice = self.world.lights.choose(sampler.get_1d(Dim::PhotonLight));
         let Some((light, pmf)) = choice else { return };
         let (u_pos, u_dir) = (sampler.get_2d(Dim::PhotonPosition), sampler.get_2d(Dim::PhotonDirection));
-        let start = light.sample_emission(&self.world.geometry, u_pos, u_dir);
-        let mut flight = Flight::new(self.world, start.ray, start.weight * (share / pmf), sampler);
+        let start = self.world.sample_emission(light, u_pos, u_dir);
+        let ray = start.ray.at_time(self.time);
+        let mut flight = Flight::new(self.world, ray, start.weight * (share / pmf), sampler);
         while flight.bounce + 1 < self.max_depth {
             let Some((surface, bsdf)) = flight.arrive(&mut self.counters) else { return };
             if bsdf.lobes().iter().any(gathers) {

@@ -10,8 +10,9 @@ pub mod sphere;
 pub mod torus;
 pub mod triangle;
 
-use crate::math::{DAffine3, DVec2, Vec2, Vec3};
+use crate::math::{DAffine3, DVec2, Motion, Vec2, Vec3};
 pub use frustum::Frustum;
+use std::sync::Arc;
 pub use torus::Torus;
 
 /// Index of a material in the world.
@@ -55,19 +56,21 @@ impl Mesh {
 pub struct Instance {
     /// Which of the shared meshes. Those are in a frame of their own; their material and source count for nothing.
     pub mesh: usize,
-    /// World space from the frame of the mesh; not singular. May mirror.
+    /// World space from the frame of the mesh when the shutter opens; not singular. May mirror.
     pub world_from_mesh: DAffine3,
     /// What it is made of.
     pub material: MaterialId,
     /// Where it came from.
     pub source: SourceId,
+    /// World space from the frame of the mesh while the shutter is open; `None` of what stands still.
+    pub motion: Option<Arc<Motion>>,
 }
 
 /// A shape that is intersected exactly, in double precision, in its own frame.
 pub struct Solid {
     /// Which, in object space.
     pub kind: SolidKind,
-    /// World space from object space; not singular. May mirror.
+    /// World space from object space when the shutter opens; not singular. May mirror.
     pub world_from_object: DAffine3,
     /// The frame in which textures are projected, from object space.
     pub texture_from_object: DAffine3,
@@ -75,6 +78,8 @@ pub struct Solid {
     pub material: MaterialId,
     /// Where it came from.
     pub source: SourceId,
+    /// World space from object space while the shutter is open; `None` of what stands still.
+    pub motion: Option<Arc<Motion>>,
 }
 
 impl Solid {

@@ -6,7 +6,8 @@ mod naive;
 use super::revolve::Revolve;
 use super::{Solid, SolidKind, sphere};
 use crate::math::{Bounds, DAffine3, DMat3, DVec3, Frame, Ray, Vec2, Vec3, float, warp};
-use crate::render::geometry::{AreaSample, DirectionSample, PrimId, SurfacePoint};
+use crate::render::geometry::{AreaSample, DirectionSample, PrimId, Spread, SurfacePoint};
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Bound on the relative error of the double-precision work between a solid's frame and the world.
@@ -15,18 +16,74 @@ const FRAME_ERROR: f64 = 32.0 * (f64::EPSILON / 2.0);
 /// A solid with what its intersection needs at hand.
 pub struct PlacedSolid {
     solid: Solid,
+    /// As it is when the shutter opens.
+    placement: Placement,
+    /// What a surface of revolution needs.
+    revolve: Option<Revolve>,
+    area: f64,
+    #[cfg(feature = "naive")]
+    naive: Option<naive::Sphere>,
+}
+
+/// Where a solid is, with what the intersection of rays needs at hand.
+#[derive(Clone)]
+struct Placement {
+    world_from_object: DAffine3,
     object_from_world: DAffine3,
     /// Takes outward normals from the object to the world; not normalised.
     normal_from_object: DMat3,
     /// How areas grow when the transform scales all lengths alike: |det|.
     determinant: f64,
-    /// What a surface of revolution needs.
-    revolve: Option<Revolve>,
     /// At most the radius of the sharpest bend of a sphere or torus, in the world; infinite for what is flat or has corners.
     radius: f64,
-    area: f64,
-    #[cfg(feature = "naive")]
-    naive: Option<naive::Sphere>,
+}
+
+impl Placement {
+    /// The place of a solid by its transform, which must not be singular.
+    fn new(kind: &SolidKind, world_from_object: DAffine3) -> Self {
+        let object_from_world = world_from_object.inverse();
+        Self {
+            world_from_object,
+            object_from_world,
+            normal_from_object: object_from_world.matrix3.transpose(),
+            determinant: world_from_object.matrix3.determinant().abs(),
+            radius: match kind {
+                SolidKind::Sphere => sharpest_bend(&world_from_object.matrix3),
+                SolidKind::Torus(torus) => torus.minor * sharpest_bend(&world_from_object.matrix3),
+                _ => f64::INFINITY,
+            },
+        }
+    }
+
+    /// The ray in the object's frame; its direction keeps its scale, so `t` means the same in both.
+    fn ray_object(&self, ray: &Ray) -> (DVec3, DVec3) {
+        let o = self.object_from_world.transform_point3(ray.o.as_dvec3());
+        (o, self.object_from_world.transform_vector3(ray.d.as_dvec3()))
+    }
+
+    /// A point of the surface in the world, and the bound on its error per axis; `size` is the extent in the object's frame
+    /// to which errors are in proportion where that is not the point's own.
+    ///
+    /// The first part of the bound is the rounding to single precision, the second that of the transforms.
+    fn to_world(&self, p: DVec3, size: f64) -> (Vec3, Vec3) {
+        let m = &self.world_from_object;
+        let exact = m.transform_point3(p);
+        // Roots along a profile are known in proportion to the whole of it.
+        let extent = p.abs().max(DVec3::splat(size));
+        let terms = m.matrix3.x_axis.abs() * extent.x
+            + m.matrix3.y_axis.abs() * extent.y
+            + m.matrix3.z_axis.abs() * extent.z
+            + m.translation.abs();
+        let error = exact.abs() * f64::from(float::gamma(2)) + terms * FRAME_ERROR;
+        // A point that is off along the surface is off it, too: by the square of that over twice the radius of its bend.
+        // Rays that leave are rounded once more, so that what counts is twice the error.
+        let bend = 2.0 * error.length_squared() / self.radius;
+        (exact.as_vec3(), (error + bend).as_vec3())
+    }
+
+    fn normal_to_world(&self, n: DVec3) -> Vec3 {
+        (self.normal_from_object * n).normalize().as_vec3().normalize()
+    }
 }
 
 /// Where a ray meets a solid.
@@ -41,24 +98,25 @@ pub struct SolidHit {
 impl PlacedSolid {
     /// Prepares a solid. Its transform must not be singular.
     pub fn new(solid: Solid) -> Self {
-        let object_from_world = solid.world_from_object.inverse();
         Self {
             area: area(&solid.kind, &solid.world_from_object),
             #[cfg(feature = "naive")]
             naive: naive::Sphere::of(&solid),
-            object_from_world,
-            normal_from_object: object_from_world.matrix3.transpose(),
-            determinant: solid.world_from_object.matrix3.determinant().abs(),
+            placement: Placement::new(&solid.kind, solid.world_from_object),
             revolve: match &solid.kind {
                 SolidKind::Revolve(profile) => Some(Revolve::new(profile)),
                 _ => None,
             },
-            radius: match &solid.kind {
-                SolidKind::Sphere => sharpest_bend(&solid.world_from_object.matrix3),
-                SolidKind::Torus(torus) => torus.minor * sharpest_bend(&solid.world_from_object.matrix3),
-                _ => f64::INFINITY,
-            },
             solid,
+        }
+    }
+
+    /// Its place at a time.
+    #[inline]
+    fn at(&self, time: f32) -> Cow<'_, Placement> {
+        match &self.solid.motion {
+            None => Cow::Borrowed(&self.placement),
+            Some(motion) => Cow::Owned(Placement::new(&self.solid.kind, motion.at(time.into()))),
         }
     }
 
@@ -78,7 +136,7 @@ impl PlacedSolid {
         if let Some(sphere) = self.naive() {
             return sphere.intersect(ray);
         }
-        let (o, d) = self.ray_object(ray);
+        let (o, d) = self.at(ray.time).ray_object(ray);
         let within = |t: f64| (0.0 < t as f32 && (t as f32) < ray.t_max).then_some(t as f32);
         let plain = |t: f32| SolidHit { t, uv: Vec2::ZERO };
         match &self.solid.kind {
@@ -104,7 +162,8 @@ impl PlacedSolid {
         if let Some(sphere) = self.naive() {
             return sphere.surface_point(&self.solid, ray, hit, prim);
         }
-        let (o, d) = self.ray_object(ray);
+        let placement = self.at(ray.time);
+        let (o, d) = placement.ray_object(ray);
         let at = |t: f64| o + d * t;
         let t = f64::from(hit.t);
         let flat = |p: DVec3| DVec3::new(p.x, p.y, 0.0);
@@ -137,19 +196,23 @@ impl PlacedSolid {
                 (p, n, sphere::tangent(p), uv)
             }
         };
-        let (p_world, p_error) = self.to_world(p);
-        let n = self.normal_to_world(n);
+        let (p_world, p_error) = placement.to_world(p, self.size());
+        let n = placement.normal_to_world(n);
         SurfacePoint {
             p: p_world,
             p_error,
             n,
             ns: n,
-            tangent: orthogonal_tangent(self.solid.world_from_object.transform_vector3(tangent), n),
+            tangent: orthogonal_tangent(placement.world_from_object.transform_vector3(tangent), n),
             uv,
             p_object: self.solid.texture_from_object.transform_point3(p).as_vec3(),
             material: self.solid.material,
             prim,
             source: self.solid.source,
+            time: ray.time,
+            footprint: 0.0,
+            angle: 0.0,
+            spread: Spread::NONE,
         }
     }
 
@@ -173,15 +236,15 @@ impl PlacedSolid {
                 unreachable!("what cannot be sampled is no lamp")
             }
         };
-        let (p_world, p_error) = self.to_world(p);
+        let (p_world, p_error) = self.placement.to_world(p, self.size());
         let pdf_area = self.pdf_area_at(p, n);
-        AreaSample { p: p_world, p_error, n: self.normal_to_world(n), uv, pdf_area }
+        AreaSample { p: p_world, p_error, n: self.placement.normal_to_world(n), uv, pdf_area }
     }
 
     /// The density of [`Self::sample_area`] at a point on the solid with the unit normal `n`, both in world space, per
     /// square metre.
     pub fn pdf_area(&self, p: Vec3, n: Vec3) -> f32 {
-        let p_object = self.object_from_world.transform_point3(p.as_dvec3());
+        let p_object = self.placement.object_from_world.transform_point3(p.as_dvec3());
         let n_object = self.solid.world_from_object.matrix3.transpose() * n.as_dvec3();
         self.pdf_area_at(p_object, n_object.normalize())
     }
@@ -246,38 +309,16 @@ impl PlacedSolid {
         (outside && cone.pdf().is_finite()).then_some(cone)
     }
 
-    /// A box that holds the solid; `None` for planes, which nothing holds.
-    pub fn bounds(&self) -> Option<Bounds> {
-        let m = &self.solid.world_from_object;
-        let (x, y, z) = (m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis);
-        // The support of a round set along a world axis is the length of that axis seen from the object.
-        let norm2 = |a: DVec3, b: DVec3| (a * a + b * b).map(f64::sqrt);
+    /// A box that holds the solid at every time; `None` for planes.
+    pub fn swept_bounds(&self) -> Option<Bounds> {
+        let Some(motion) = &self.solid.motion else {
+            return bounds(&self.solid.kind, &self.solid.world_from_object);
+        };
         let (low, high) = match &self.solid.kind {
-            SolidKind::Plane => return None,
-            SolidKind::Sphere => {
-                let reach = (x * x + y * y + z * z).map(f64::sqrt);
-                (m.translation - reach, m.translation + reach)
-            }
-            SolidKind::Disk => (m.translation - norm2(x, y), m.translation + norm2(x, y)),
-            SolidKind::Revolve(profile) => {
-                let ring = norm2(x, z);
-                let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-                for point in profile.pieces.iter().flatten() {
-                    let (center, reach) = (m.translation + y * point.y, ring * point.x.abs());
-                    low = low.min(center - reach);
-                    high = high.max(center + reach);
-                }
-                (low, high)
-            }
-            SolidKind::Frustum(frustum) => {
-                let (ring, end) = (norm2(x, z), m.translation + y * frustum.height);
-                let (bottom, top) = (ring * frustum.base, ring * frustum.top);
-                ((m.translation - bottom).min(end - top), (m.translation + bottom).max(end + top))
-            }
-            SolidKind::Torus(torus) => {
-                let tube = (x * x + y * y + z * z).map(f64::sqrt) * torus.minor;
-                let reach = norm2(x, z) * torus.major + tube;
-                (m.translation - reach, m.translation + reach)
+            SolidKind::Sphere => motion.sweep_ball(),
+            kind => {
+                let own = bounds(kind, &DAffine3::IDENTITY)?;
+                motion.sweep_box(own.min.as_dvec3(), own.max.as_dvec3())
             }
         };
         let slack = (low.abs().max(high.abs())) * FRAME_ERROR;
@@ -294,31 +335,6 @@ impl PlacedSolid {
         self.revolve.as_ref().expect("`new` prepares each surface of revolution")
     }
 
-    /// The ray in the object's frame; its direction keeps its scale, so `t` means the same in both.
-    fn ray_object(&self, ray: &Ray) -> (DVec3, DVec3) {
-        let o = self.object_from_world.transform_point3(ray.o.as_dvec3());
-        (o, self.object_from_world.transform_vector3(ray.d.as_dvec3()))
-    }
-
-    /// A point of the surface in the world, and the bound on its error per axis.
-    ///
-    /// The first part of the bound is the rounding to single precision, the second that of the transforms.
-    fn to_world(&self, p: DVec3) -> (Vec3, Vec3) {
-        let m = &self.solid.world_from_object;
-        let exact = m.transform_point3(p);
-        // Roots along a profile are known in proportion to the whole of it.
-        let extent = p.abs().max(DVec3::splat(self.size()));
-        let terms = m.matrix3.x_axis.abs() * extent.x
-            + m.matrix3.y_axis.abs() * extent.y
-            + m.matrix3.z_axis.abs() * extent.z
-            + m.translation.abs();
-        let error = exact.abs() * f64::from(float::gamma(2)) + terms * FRAME_ERROR;
-        // A point that is off along the surface is off it, too: by the square of that over twice the radius of its bend.
-        // Rays that leave are rounded once more, so that what counts is twice the error.
-        let bend = 2.0 * error.length_squared() / self.radius;
-        (exact.as_vec3(), (error + bend).as_vec3())
-    }
-
     /// The extent in the object's frame to which the errors of its points are in proportion, where that is not their own.
     fn size(&self) -> f64 {
         match &self.solid.kind {
@@ -329,13 +345,9 @@ impl PlacedSolid {
         }
     }
 
-    fn normal_to_world(&self, n: DVec3) -> Vec3 {
-        (self.normal_from_object * n).normalize().as_vec3().normalize()
-    }
-
     /// World area per object area where the unit object normal is `n`.
     fn area_scale(&self, n: DVec3) -> f64 {
-        self.determinant * (self.normal_from_object * n).length()
+        self.placement.determinant * (self.placement.normal_from_object * n).length()
     }
 
     /// The world radius if this is a sphere that its transform leaves round.
@@ -343,6 +355,43 @@ impl PlacedSolid {
         let is_sphere = matches!(self.solid.kind, SolidKind::Sphere);
         is_sphere.then(|| round_radius(&self.solid.world_from_object.matrix3)).flatten()
     }
+}
+
+/// A box that holds a solid in its place; `None` for planes, which nothing holds.
+fn bounds(kind: &SolidKind, m: &DAffine3) -> Option<Bounds> {
+    let (x, y, z) = (m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis);
+    // The support of a round set along a world axis is the length of that axis seen from the object.
+    let norm2 = |a: DVec3, b: DVec3| (a * a + b * b).map(f64::sqrt);
+    let (low, high) = match kind {
+        SolidKind::Plane => return None,
+        SolidKind::Sphere => {
+            let reach = (x * x + y * y + z * z).map(f64::sqrt);
+            (m.translation - reach, m.translation + reach)
+        }
+        SolidKind::Disk => (m.translation - norm2(x, y), m.translation + norm2(x, y)),
+        SolidKind::Revolve(profile) => {
+            let ring = norm2(x, z);
+            let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+            for point in profile.pieces.iter().flatten() {
+                let (center, reach) = (m.translation + y * point.y, ring * point.x.abs());
+                low = low.min(center - reach);
+                high = high.max(center + reach);
+            }
+            (low, high)
+        }
+        SolidKind::Frustum(frustum) => {
+            let (ring, end) = (norm2(x, z), m.translation + y * frustum.height);
+            let (bottom, top) = (ring * frustum.base, ring * frustum.top);
+            ((m.translation - bottom).min(end - top), (m.translation + bottom).max(end + top))
+        }
+        SolidKind::Torus(torus) => {
+            let tube = (x * x + y * y + z * z).map(f64::sqrt) * torus.minor;
+            let reach = norm2(x, z) * torus.major + tube;
+            (m.translation - reach, m.translation + reach)
+        }
+    };
+    let slack = (low.abs().max(high.abs())) * FRAME_ERROR;
+    Some(Bounds::enclosing(low - slack, high + slack))
 }
 
 /// The area of a solid in its place, in m²: closed forms where the transform allows, else a product rule over the

@@ -2,8 +2,8 @@
 
 use super::Detail;
 use crate::math::{Rgb, Vec2, Vec3, float};
-use crate::render::geometry::SurfacePoint;
-use std::f32::consts::{PI, TAU};
+use crate::render::geometry::{Spread, SurfacePoint};
+use std::f32::consts::{LN_2, PI, TAU};
 use std::sync::Arc;
 
 /// A linear picture in memory.
@@ -41,6 +41,41 @@ impl Image {
         self.texels[y as usize * self.width as usize + x as usize]
     }
 
+    /// The same picture in half as many columns and rows, and again, down to a single texel (Williams 1983): each texel the
+    /// mean of what it covers, with shares of those at its edges, so that the mean of all stays what it is.
+    pub fn coarser(&self) -> Vec<Self> {
+        let mut levels: Vec<Self> = Vec::new();
+        loop {
+            let last = levels.last().unwrap_or(self);
+            if last.width == 1 && last.height == 1 {
+                return levels;
+            }
+            levels.push(last.halved());
+        }
+    }
+
+    fn halved(&self) -> Self {
+        let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
+        let (columns, rows) = (shares(self.width, width), shares(self.height, height));
+        let mut texels = Vec::with_capacity(width as usize * height as usize);
+        for row in &rows {
+            for column in &columns {
+                let mut sum = [0.0_f64; 3];
+                for &(y, share_y) in row {
+                    for &(x, share_x) in column {
+                        let texel = self.texel(x, y);
+                        let share = share_x * share_y;
+                        sum[0] += f64::from(texel.r) * share;
+                        sum[1] += f64::from(texel.g) * share;
+                        sum[2] += f64::from(texel.b) * share;
+                    }
+                }
+                texels.push(Rgb::from(sum.map(|channel| channel as f32)));
+            }
+        }
+        Self::new(width, height, texels)
+    }
+
     /// The mean of all texels.
     pub fn mean(&self) -> Rgb {
         let sum = self.texels.iter().fold([0.0_f64; 3], |[r, g, b], texel| {
@@ -48,6 +83,18 @@ impl Image {
         });
         Rgb::from(sum.map(|channel| (channel / self.texels.len() as f64) as f32))
     }
+}
+
+/// For each of `new` cells, those of `old` that lie under it, with the share that each has in it.
+fn shares(old: u32, new: u32) -> Vec<Vec<(u32, f64)>> {
+    let size = f64::from(old) / f64::from(new);
+    let cell = |i: u32| {
+        let (start, end) = (f64::from(i) * size, f64::from(i + 1) * size);
+        let last = (end.ceil() as u32).min(old);
+        let share = |x: u32| (f64::from(x + 1).min(end) - f64::from(x).max(start)) / size;
+        (start as u32..last).map(|x| (x, share(x))).filter(|(_, share)| *share > 0.0).collect()
+    };
+    (0..new).map(cell).collect()
 }
 
 /// What lies beyond the edges of a picture.
@@ -139,6 +186,8 @@ fn cubic(p: Vec3) -> Vec2 {
 pub struct ImageTexture {
     /// The picture, shared by all that show it.
     pub image: Arc<Image>,
+    /// The same, ever coarser, for where more than a point of it is seen at once; empty: points are looked up everywhere.
+    pub coarser: Arc<[Image]>,
     /// What lies beyond its edges.
     pub wrap: Wrap,
     /// How it looks between texels.
@@ -157,7 +206,50 @@ impl ImageTexture {
     /// The linear colour at a point of a surface.
     pub(super) fn eval(&self, surface: &SurfacePoint) -> Rgb {
         let uv = self.projection.uv(surface) * self.uv_scale;
-        self.lookup(self.uv_turn.rotate(uv) + self.uv_offset)
+        let uv = self.uv_turn.rotate(uv) + self.uv_offset;
+        if self.coarser.is_empty() || surface.spread == Spread::NONE {
+            return self.lookup(uv);
+        }
+        self.filtered(uv, self.width_in_texels(surface))
+    }
+
+    /// The width of what is seen of the picture at once, in texels: in the direction in which it is narrowest.
+    fn width_in_texels(&self, surface: &SurfacePoint) -> f32 {
+        let size = Vec2::new(self.image.width as f32, self.image.height as f32);
+        let scale = self.uv_scale.abs().min_element();
+        let space = surface.spread.space;
+        match self.projection {
+            Projection::Uv => {
+                let [along, across] =
+                    surface.spread.uv.map(|uv| self.uv_turn.rotate(uv * self.uv_scale) * size);
+                narrowest(along, across)
+            }
+            Projection::Planar { u, v, .. } => scale * space * (size.x / u.length()).min(size.y / v.length()),
+            Projection::Spherical { center } => {
+                let angle = space / surface.p_object.distance(center);
+                scale * angle * (size.x / TAU).min(size.y / PI)
+            }
+            Projection::Cubic { size: edges, .. } => scale * space * size.min_element() / edges.max_element(),
+        }
+    }
+
+    /// The mean colour about a point of the picture, over about `width` texels.
+    ///
+    /// Between two of the coarser pictures, in each between the nearest texels, of which half the width is one: together
+    /// four texels make the width, and what the pixel's own filter blurs is not blurred twice.
+    fn filtered(&self, uv: Vec2, width: f32) -> Rgb {
+        let level = float::ln(0.5 * width) / LN_2;
+        if level <= 0.0 || level.is_nan() {
+            return self.lookup(uv);
+        }
+        let last = self.coarser.len() - 1;
+        let at = |level: usize| match level.checked_sub(1) {
+            None => self.lookup(uv),
+            Some(i) => self.blended(&self.coarser[i.min(last)], uv),
+        };
+        let whole = level.floor();
+        let fine = whole as usize;
+        if fine > last { at(fine) } else { at(fine).lerp(at(fine + 1), level - whole) }
     }
 
     /// The size of what is finest in it, where the texture point is the surface's own: a texel.
@@ -177,29 +269,43 @@ impl ImageTexture {
 
     /// The colour at a point of the picture, in units of its sides from the bottom left.
     fn lookup(&self, uv: Vec2) -> Rgb {
-        let x = uv.x * self.image.width as f32;
-        let y = (1.0 - uv.y) * self.image.height as f32;
         match self.filter {
-            ImageFilter::Nearest => self.texel(x.floor() as i64, y.floor() as i64),
-            ImageFilter::Linear => {
-                let (x, y) = (x - 0.5, y - 0.5);
-                let (column, row) = (x.floor() as i64, y.floor() as i64);
-                let top = self.texel(column, row).lerp(self.texel(column + 1, row), x - x.floor());
-                let bottom = self.texel(column, row + 1).lerp(self.texel(column + 1, row + 1), x - x.floor());
-                top.lerp(bottom, y - y.floor())
+            ImageFilter::Nearest => {
+                let x = uv.x * self.image.width as f32;
+                let y = (1.0 - uv.y) * self.image.height as f32;
+                self.texel(&self.image, x.floor() as i64, y.floor() as i64)
             }
+            ImageFilter::Linear => self.blended(&self.image, uv),
         }
     }
 
+    /// The four texels of one of its pictures that are nearest to a point, weighted by distance.
+    fn blended(&self, image: &Image, uv: Vec2) -> Rgb {
+        let x = uv.x * image.width as f32 - 0.5;
+        let y = (1.0 - uv.y) * image.height as f32 - 0.5;
+        let (column, row) = (x.floor() as i64, y.floor() as i64);
+        let texel = |column, row| self.texel(image, column, row);
+        let top = texel(column, row).lerp(texel(column + 1, row), x - x.floor());
+        let bottom = texel(column, row + 1).lerp(texel(column + 1, row + 1), x - x.floor());
+        top.lerp(bottom, y - y.floor())
+    }
+
     /// The texel at any column and row, by the wrapping rule.
-    fn texel(&self, column: i64, row: i64) -> Rgb {
-        let (x, y) = (wrap(column, self.image.width, self.wrap), wrap(row, self.image.height, self.wrap));
+    fn texel(&self, image: &Image, column: i64, row: i64) -> Rgb {
+        let (x, y) = (wrap(column, image.width, self.wrap), wrap(row, image.height, self.wrap));
         match (x, y, self.wrap) {
-            (Some(x), Some(y), _) => self.image.texel(x, y),
+            (Some(x), Some(y), _) => image.texel(x, y),
             (_, _, Wrap::Border(color)) => color,
             _ => Rgb::BLACK, // only a border leaves cells without a texel
         }
     }
+}
+
+/// The length of the shorter half-axis of the ellipse that two conjugate half-axes span: the least singular value.
+fn narrowest(a: Vec2, b: Vec2) -> f32 {
+    let (squares, area) = (a.length_squared() + b.length_squared(), a.perp_dot(b).abs());
+    let longest2 = 0.5 * (squares + (squares * squares - 4.0 * area * area).max(0.0).sqrt());
+    if longest2 > 0.0 { area / longest2.sqrt() } else { 0.0 }
 }
 
 /// The texel that an index along a side of `size` texels leads to; `None` for the border.
@@ -225,7 +331,17 @@ mod tests {
     fn texture(filter: ImageFilter, wrap: Wrap) -> ImageTexture {
         let image = Arc::new(Image::new(2, 2, [1.0, 2.0, 3.0, 4.0].map(Rgb::gray).to_vec()));
         let (uv_scale, uv_turn, uv_offset) = (Vec2::ONE, Vec2::X, Vec2::ZERO);
-        ImageTexture { image, wrap, filter, uv_scale, uv_turn, uv_offset, projection: Projection::Uv }
+        let coarser = image.coarser().into();
+        ImageTexture {
+            image,
+            coarser,
+            wrap,
+            filter,
+            uv_scale,
+            uv_turn,
+            uv_offset,
+            projection: Projection::Uv,
+        }
     }
 
     #[test]
@@ -240,6 +356,43 @@ mod tests {
         let texture = texture(ImageFilter::Linear, Wrap::Clamp);
         assert_eq!(texture.lookup(Vec2::new(0.25, 0.75)).r, 1.0);
         assert_eq!(texture.lookup(Vec2::new(0.5, 0.5)).r, 2.5);
+    }
+
+    #[test]
+    fn coarser_pictures_keep_the_mean_and_end_in_it() {
+        for (width, height) in [(1, 1), (2, 2), (7, 5), (1, 9), (16, 3), (31, 33)] {
+            let texel = |i: u32| Rgb::new(i as f32, (i * 7 % 11) as f32, (i % 2) as f32);
+            let image = Image::new(width, height, (0..width * height).map(texel).collect());
+            let mean = image.mean();
+            for level in image.coarser() {
+                let error = (level.mean() - mean).map(f32::abs).max_component();
+                assert!(error < 1e-5 * mean.max_component(), "{width} x {height}: {error}");
+            }
+            let last = image.coarser().pop().unwrap_or(image);
+            assert_eq!((last.width, last.height), (1, 1));
+        }
+    }
+
+    #[test]
+    fn what_is_narrower_than_two_texels_is_looked_up_and_what_is_wide_is_the_mean() {
+        let texture = texture(ImageFilter::Linear, Wrap::Repeat);
+        let uv = Vec2::new(0.3, 0.9);
+        assert_eq!(texture.filtered(uv, 0.0), texture.lookup(uv));
+        assert_eq!(texture.filtered(uv, 2.0), texture.lookup(uv));
+        assert_eq!(texture.filtered(uv, 4.0).r, 2.5);
+        assert_eq!(texture.filtered(uv, 1e30).r, 2.5);
+        assert_eq!(texture.filtered(uv, f32::NAN), texture.lookup(uv));
+        let between = (texture.lookup(uv).r + 2.5) / 2.0;
+        assert!((texture.filtered(uv, 2.0 * 2.0_f32.sqrt()).r - between).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_narrowest_width_of_an_ellipse_is_its_shorter_axis() {
+        let turned = Vec2::new(0.6, 0.8);
+        let [a, b] = [Vec2::new(3.0, 0.0), Vec2::new(0.0, 0.5)].map(|axis| turned.rotate(axis));
+        assert!((narrowest(a, b) - 0.5).abs() < 1e-5);
+        assert_eq!(narrowest(a, a), 0.0);
+        assert_eq!(narrowest(Vec2::ZERO, Vec2::ZERO), 0.0);
     }
 
     #[test]

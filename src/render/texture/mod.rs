@@ -156,6 +156,14 @@ impl Textures {
         }
     }
 
+    /// Whether it matters to a texture how much of it is seen at once.
+    pub fn is_filtered(&self, id: TextureId) -> bool {
+        let texture = self.get(id);
+        let has_levels = matches!(texture, Texture::Image(image) if !image.coarser.is_empty());
+        let part = |part: Input| matches!(part, Input::Texture(id) if self.is_filtered(id));
+        has_levels || texture.parts().into_iter().any(part)
+    }
+
     /// The size of what is finest in a texture.
     pub fn detail(&self, id: TextureId) -> Detail {
         let texture = self.get(id);

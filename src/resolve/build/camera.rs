@@ -6,6 +6,7 @@ use crate::math::{DVec2, DVec3};
 use crate::resolve::dimension::{Dimension, Quantity};
 use crate::resolve::error::Error;
 use crate::resolve::fields::Fields;
+use crate::resolve::node::{compose, steps_of};
 use crate::resolve::{Env, Resolver, Value};
 use crate::schema;
 use crate::source::Spanned;
@@ -32,6 +33,10 @@ impl<'a> Resolver<'a> {
     }
 
     fn camera_of(&mut self, fields: &Fields<'a>, object: &'a Object) -> Option<Camera> {
+        let transform = steps_of(fields.value("transform").map(|slot| &slot.value));
+        let moved = compose(&transform);
+        let place = |p: DVec3| if transform.is_empty() { p } else { moved.transform_point3(p) };
+        let turn = |v: DVec3| if transform.is_empty() { v } else { moved.transform_vector3(v) };
         let position = fields.triple("position")?.value;
         let towards = fields.triple("look_at").map(|target| target.map(|target| target - position));
         let direction = towards.or_else(|| fields.triple("direction"));
@@ -45,17 +50,19 @@ impl<'a> Resolver<'a> {
             Some(target),
         ) = (&mut lens, fields.triple("look_at"))
         {
-            *focus = Some(target.map(Focus::Point));
+            *focus = Some(target.map(place).map(Focus::Point));
         }
         Some(Camera {
             name: object.second.clone(),
-            position: fields.triple("position")?,
+            position: fields.triple("position")?.map(place),
             // What could not be read is as good as straight ahead.
-            direction: direction.unwrap_or(Spanned::new(DVec3::NEG_Z, fields.head)),
-            up: fields.triple("up")?,
+            direction: direction.unwrap_or(Spanned::new(DVec3::NEG_Z, fields.head)).map(turn),
+            up: fields.triple("up")?.map(turn),
             fov: self.fov(fields, &lens),
             lens,
             film: self.film(fields)?,
+            shutter: fields.number("shutter")?,
+            transform: transform.to_vec(),
             span: object.span,
         })
     }

@@ -24,7 +24,7 @@ impl<'a> Resolver<'a> {
         let brightness = brightness(fields)?;
         let color =
             fields.block.field("color").map_or(Some(Rgb::WHITE), |_| Some(fields.color("color")?.value))?;
-        let light = Light { kind, brightness, color, span, trail: Vec::new() };
+        let light = Light { kind, brightness, color, span, trail: Vec::new(), moves: None };
         self.node(NodeKind::Light(Box::new(light)), Rc::new([]), None, span)
     }
 

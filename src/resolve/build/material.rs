@@ -140,7 +140,7 @@ fn principled(fields: &Fields) -> Option<Principled> {
         ior: fields.number("ior")?,
         clearcoat: fields.input("clearcoat")?,
         clearcoat_roughness: fields.input("clearcoat_roughness")?,
-        emission: fields.color("emission")?,
+        emission: fields.input("emission")?,
     })
 }
 
