@@ -13,7 +13,8 @@ impl Film {
     /// from the film's first pixel; `None` below two passes.
     pub fn tile_errors(&self) -> Option<Vec<[f32; 3]>> {
         let mut errors = vec![[0.0; 3]; self.region.area()];
-        for tile in self.region.tiles(ERROR_TILE, [0, 0]) {
+        let to_first = |at: u32| (ERROR_TILE - at % ERROR_TILE) % ERROR_TILE;
+        for tile in self.region.tiles(ERROR_TILE, [self.region.x, self.region.y].map(to_first)) {
             let error = self.error_of_mean(tile)?.map(|error| error as f32);
             tile.pixels().filter_map(|pixel| self.region.index_of(pixel)).for_each(|i| errors[i] = error);
         }

@@ -158,14 +158,14 @@ impl LightTree {
         }
     }
 
-    /// The importances of a few lights; `None` of many.
+    /// The importances of a few lights, so that their sum is a number; `None` of many.
     fn each(&self, from: &Viewpoint) -> Option<[f32; FEW]> {
         if self.leaves.len() > FEW {
             return None;
         }
         let mut each = [0.0; FEW];
         for (importance, &leaf) in each.iter_mut().zip(&self.leaves) {
-            *importance = self.nodes[leaf as usize].bounds.importance(from);
+            *importance = self.nodes[leaf as usize].bounds.importance(from).min(f32::MAX / FEW as f32);
         }
         Some(each)
     }
@@ -197,7 +197,7 @@ impl LightTree {
     pub fn pmf(&self, from: &Viewpoint, light: u32) -> f32 {
         if let Some(each) = self.each(from) {
             let sum: f32 = each.iter().sum();
-            return if sum > 0.0 && sum.is_finite() { each[light as usize] / sum } else { 0.0 };
+            return if sum > 0.0 { each[light as usize] / sum } else { 0.0 };
         }
         let (mut at, mut pmf) = (self.leaves[light as usize], 1.0);
         while at != 0 {
@@ -230,7 +230,7 @@ fn sample_of(each: &[f32; FEW], u: f64) -> Option<(u32, f32)> {
             break;
         }
     }
-    drawn.filter(|_| sum.is_finite())
+    drawn
 }
 
 /// Orders lights so that those before and those after the index returned make the cheapest pair of groups.
