@@ -229,10 +229,10 @@ impl PathTracer<'_> {
     ) -> Option<SurfacePoint> {
         trace.counters.rays += 1;
         let Some(hit) = self.world.closest_hit(&walk.ray) else {
+            let (sky, place) = (self.world.lights.sky(walk.ray.d).0, Place::Sky(walk.ray.d));
             trace.witness.note(|| Event::Sends);
-            trace.witness.note(|| Event::Sky { dir: walk.ray.d, added: Rgb::BLACK });
-            let place = Place::Sky(walk.ray.d);
-            let shines = !self.world.lights.sky(walk.ray.d).0.is_black();
+            trace.witness.note(|| Event::Sky { dir: walk.ray.d, added: sky });
+            let shines = !sky.is_black();
             group.senders.push(Sender { place, finder, radiance: Rgb::BLACK, shines });
             return None;
         };
