@@ -14,7 +14,7 @@
 #[path = "../tests/laws/worlds.rs"]
 mod worlds;
 
-use rustix::time::{ClockId, clock_gettime};
+use cpu_time::ThreadTime;
 use snell::math::Rgb;
 use snell::render::film::{Film, Region, Tile};
 use snell::render::{World, render};
@@ -22,8 +22,7 @@ use std::hint::black_box;
 
 /// Seconds of this thread.
 fn seconds() -> f64 {
-    let now = clock_gettime(ClockId::ThreadCPUTime);
-    now.tv_sec as f64 + now.tv_nsec as f64 * 1e-9
+    ThreadTime::now().as_duration().as_secs_f64()
 }
 
 /// The least seconds of `work` in a few tries.

@@ -3,7 +3,7 @@
 //! One thread, CPU seconds, the readers in turn and the best of five. `cargo bench --bench meshes`, with thousands of
 //! triangles as arguments: `-- 100 1000`.
 
-use rustix::time::{ClockId, clock_gettime};
+use cpu_time::ThreadTime;
 use snell::asset::{gltf, obj};
 use std::fmt::Write;
 use std::hint::black_box;
@@ -57,8 +57,7 @@ fn gltf_reader(bytes: &[u8]) {
 }
 
 fn cpu_seconds() -> f64 {
-    let time = clock_gettime(ClockId::ThreadCPUTime);
-    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
+    ThreadTime::now().as_duration().as_secs_f64()
 }
 
 /// A bumpy sheet with normals and texture points.

@@ -12,7 +12,7 @@
 //! holds our rates divided by those of robust Embree, our seconds to build by those of its build that splits space
 //! (with the robust flag it divides objects only), and our memory by its.
 
-use rustix::time::{ClockId, clock_gettime};
+use cpu_time::ThreadTime;
 use snell::math::{DAffine3, Ray, Vec3};
 use snell::render::geometry::Geometry;
 use snell::render::shape::{MaterialId, Mesh, SourceId};
@@ -123,8 +123,7 @@ fn timed(rays: &[Ray], trace: impl Fn(&Ray) -> bool) -> (f64, usize) {
 
 /// What this thread has used of its processor, in seconds.
 fn thread_seconds() -> f64 {
-    let now = clock_gettime(ClockId::ThreadCPUTime);
-    now.tv_sec as f64 + now.tv_nsec as f64 * 1e-9
+    ThreadTime::now().as_duration().as_secs_f64()
 }
 
 /// The program that traces the same rays with Embree.

@@ -16,7 +16,7 @@ mod remedies;
 mod scenes;
 mod whole;
 
-use rustix::time::{ClockId, clock_gettime};
+use cpu_time::ThreadTime;
 use std::hint::black_box;
 
 /// One way to do a thing.
@@ -62,8 +62,7 @@ fn nanoseconds(count: usize, call: &mut impl FnMut(usize) -> f64) -> f64 {
 
 /// The time that this thread has computed.
 fn thread_seconds() -> f64 {
-    let now = clock_gettime(ClockId::ThreadCPUTime);
-    now.tv_sec as f64 + now.tv_nsec as f64 * 1e-9
+    ThreadTime::now().as_duration().as_secs_f64()
 }
 
 fn main() {
