@@ -1,7 +1,7 @@
 #!/bin/sh
 # Makes what stands in this folder: what accuracy costs in scenes that come with Snell.
 #
-#     docs/accuracy/make.sh                          a few minutes of one core
+#     docs/accuracy/make.sh                          about an hour of one core
 #     SIDE=256 PASSES=1024 docs/accuracy/make.sh     some hours
 #
 # SIDE is the width of the pictures in pixels, PASSES how far each run goes, SEEDS how many runs each variant has. What was
