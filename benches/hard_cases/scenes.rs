@@ -3,6 +3,7 @@
 use snell::diag::Problems;
 use snell::lower::Lowered;
 use snell::math::{Ray, Vec2};
+use snell::render::sampler::Sampling;
 use snell::render::{Settings, Stop};
 use snell::source::{Disk, SourceMap};
 use std::path::Path;
@@ -40,7 +41,14 @@ impl Scene {
         let lowered =
             snell::lower::lower(&loaded, &plan, &camera, &files, &mut problems).expect("it is right");
         let stop = Stop { passes: Some(passes), ..Stop::default() };
-        let settings = Settings { method: lowered.method, max_depth: plan.depth, seed: 1, stop, crop: None };
+        let settings = Settings {
+            method: lowered.method,
+            max_depth: plan.depth,
+            seed: 1,
+            stop,
+            crop: None,
+            sampling: Sampling::Sobol,
+        };
         Self { lowered, settings }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{SolidHit, orthogonal_tangent, round_radius, sphere};
 use crate::math::{Ray, Vec2, Vec3, float};
-use crate::render::geometry::{PrimId, SurfacePoint};
+use crate::render::geometry::{PrimId, Spread, SurfacePoint};
 use crate::render::shape::{Solid, SolidKind};
 
 /// A round sphere in the world.
@@ -48,6 +48,10 @@ impl Sphere {
             material: solid.material,
             prim,
             source: solid.source,
+            time: ray.time,
+            footprint: 0.0,
+            angle: 0.0,
+            spread: Spread::NONE,
         }
     }
 }
