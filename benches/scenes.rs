@@ -14,7 +14,7 @@
 use snell::diag::Problems;
 use snell::math::Rgb;
 use snell::plan::Plan;
-use snell::render::{Outcome, Sampling, Settings, Stop};
+use snell::render::{Outcome, Settings};
 use snell::source::{Disk, SourceMap};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -184,15 +184,7 @@ fn render(file: &Path, passes: u32, seed: u64, method: &str) -> Result<(Outcome,
     let lowered =
         snell::lower::lower(&loaded, &plan, camera, &files, &mut problems).ok_or("a picture is broken")?;
     drop(loaded);
-    let stop = Stop { passes: Some(passes), ..Stop::default() };
-    let settings = Settings {
-        method: lowered.method,
-        max_depth: plan.depth,
-        seed,
-        stop,
-        crop: None,
-        sampling: Sampling::Sobol,
-    };
+    let settings = Settings { seed, ..Settings::new(lowered.method, plan.depth, passes) };
     let start = cpu_seconds();
     let outcome = snell::render::render(&lowered.world, &settings, &());
     Ok((outcome, cpu_seconds() - start))

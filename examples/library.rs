@@ -4,7 +4,7 @@
 
 use snell::diag::Problems;
 use snell::output::{Display, Exposure, Format, Frame, Tone};
-use snell::render::{Sampling, Settings, Stop};
+use snell::render::Settings;
 use snell::source::{Memory, SourceMap};
 use std::io::{Cursor, Write};
 
@@ -34,15 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let lowered =
         snell::lower::lower(&loaded, &plan, camera, &files, &mut problems).ok_or("a picture is broken")?;
 
-    let stop = Stop { passes: Some(64), ..Stop::default() };
-    let settings = Settings {
-        method: lowered.method,
-        max_depth: plan.depth,
-        seed: 0,
-        stop,
-        crop: None,
-        sampling: Sampling::Sobol,
-    };
+    let settings = Settings::new(lowered.method, plan.depth, 64);
     let outcome = snell::render::render(&lowered.world, &settings, &());
 
     let region = outcome.film.region();

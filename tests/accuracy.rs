@@ -38,7 +38,7 @@ fn scenes(side: u32) -> [(&'static str, World); 4] {
 }
 
 fn settings(seed: u64, stop: Stop) -> Settings {
-    Settings { method: Method::Pt, max_depth: 8, seed, stop, crop: None, sampling: Sampling::Sobol }
+    Settings { seed, stop, ..Settings::new(Method::Pt, 8, 1) }
 }
 
 fn rendered(world: &World, seed: u64, stop: Stop) -> Outcome {
@@ -98,16 +98,7 @@ impl Truth {
 
 fn picture(film: &Film) -> Picture {
     let region = film.region();
-    let (width, height, radiance) = (region.width, region.height, film.mean());
-    Picture {
-        width,
-        height,
-        radiance,
-        standard_error: None,
-        tile_error: None,
-        is_display: false,
-        facts: Vec::new(),
-    }
+    Picture::new(region.width, region.height, film.mean())
 }
 
 /// For each scene the share of short renders whose error lies in its interval, and the share of numbers in theirs.

@@ -4,7 +4,7 @@ use snell::convert::{Angle, Basis, Options, Rendition};
 use snell::diag::{Problems, Report};
 use snell::math::DVec3;
 use snell::output::{Display, Exposure, Tone};
-use snell::render::{Sampling, Settings, Stop};
+use snell::render::Settings;
 use snell::source::{Memory, SourceMap};
 
 /// The picture of a scene as bytes, without a tone curve; or what is wrong with the scene.
@@ -22,15 +22,7 @@ fn render_with(text: &str, files: &Memory) -> Result<Vec<[u8; 3]>, String> {
         let plan = snell::plan::plan(&loaded, Some(camera), None);
         snell::plan::warn(&plan, &loaded, &mut problems);
         let lowered = snell::lower::lower(&loaded, &plan, camera, files, &mut problems)?;
-        let stop = Stop { passes: Some(1), ..Stop::default() };
-        let settings = Settings {
-            method: lowered.method,
-            max_depth: plan.depth,
-            seed: 0,
-            stop,
-            crop: None,
-            sampling: Sampling::Sobol,
-        };
+        let settings = Settings::new(lowered.method, plan.depth, 1);
         let outcome = snell::render::render(&lowered.world, &settings, &());
         let floor = scene.render.classic.floor;
         let display = Display { exposure: Exposure::Ev(0.0), tone: Tone::Linear, floor };

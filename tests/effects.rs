@@ -7,7 +7,7 @@ use crate::support::film_bits;
 use snell::diag::Problems;
 use snell::ir::Method;
 use snell::plan::{Effect, Plan, Wanted};
-use snell::render::{Outcome, Sampling, Settings, Stop};
+use snell::render::{Outcome, Settings};
 use snell::source::{Disk, Files, Memory, Missing, SourceMap};
 use std::fmt::Write;
 use std::io;
@@ -43,15 +43,7 @@ fn with_plan<T>(
     let mut problems = Problems::default();
     let mut render = |plan: &Plan| {
         let lowered = snell::lower::lower(&loaded, plan, &camera, files, &mut problems)?;
-        let stop = Stop { passes: Some(2), ..Stop::default() };
-        let settings = Settings {
-            method: lowered.method,
-            max_depth: 12,
-            seed: 3,
-            stop,
-            crop: None,
-            sampling: Sampling::Sobol,
-        };
+        let settings = Settings { seed: 3, ..Settings::new(lowered.method, 12, 2) };
         Some(snell::render::render(&lowered.world, &settings, &()))
     };
     Ok(then(&plan, &mut render))

@@ -28,8 +28,7 @@ fn hybrid(photon_count: u32, radius: f32) -> Method {
 }
 
 fn settings(method: Method, passes: u32, seed: u64) -> Settings {
-    let stop = Stop { passes: Some(passes), ..Stop::default() };
-    Settings { method, max_depth: DEPTH, seed, stop, crop: None, sampling: Sampling::Sobol }
+    Settings { seed, ..Settings::new(method, DEPTH, passes) }
 }
 
 /// The means of the four quarters of a picture.

@@ -8,7 +8,7 @@ use snell::render::light::{Falloff, Light};
 use snell::render::photon::Schedule;
 use snell::render::photon::{Disc, Neighbor, Photon, PhotonMap};
 use snell::render::shape::MaterialId;
-use snell::render::{Method, Parts, PpmSettings, Sampling, Settings, Stop, World, render};
+use snell::render::{Method, Parts, PpmSettings, Settings, World, render};
 
 /// Numbers in [0, 1) that look random, the same on every run (Vigna 2015, splitmix64).
 struct Random(u64);
@@ -109,14 +109,7 @@ fn radii_follow_the_closed_form() {
 
 fn ppm(photon_count: u32, k: u32, radius: f32, passes: u32, max_depth: u32) -> Settings {
     let method = Method::Ppm(PpmSettings { photon_count, k, radius, shrink: 2.0 / 3.0 });
-    Settings {
-        method,
-        max_depth,
-        seed: 1,
-        stop: Stop { passes: Some(passes), ..Stop::default() },
-        crop: None,
-        sampling: Sampling::Sobol,
-    }
+    Settings { seed: 1, ..Settings::new(method, max_depth, passes) }
 }
 
 fn map_photons(parts: Parts, settings: &Settings) -> Film {

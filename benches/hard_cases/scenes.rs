@@ -3,8 +3,7 @@
 use snell::diag::Problems;
 use snell::lower::Lowered;
 use snell::math::{Ray, Vec2};
-use snell::render::sampler::Sampling;
-use snell::render::{Settings, Stop};
+use snell::render::Settings;
 use snell::source::{Disk, SourceMap};
 use std::path::Path;
 
@@ -40,15 +39,7 @@ impl Scene {
         let plan = snell::plan::plan(&loaded, Some(&camera), None);
         let lowered =
             snell::lower::lower(&loaded, &plan, &camera, &files, &mut problems).expect("it is right");
-        let stop = Stop { passes: Some(passes), ..Stop::default() };
-        let settings = Settings {
-            method: lowered.method,
-            max_depth: plan.depth,
-            seed: 1,
-            stop,
-            crop: None,
-            sampling: Sampling::Sobol,
-        };
+        let settings = Settings { seed: 1, ..Settings::new(lowered.method, plan.depth, passes) };
         Self { lowered, settings }
     }
 

@@ -6,7 +6,7 @@ use crate::load::Loaded;
 use crate::lower::Lowered;
 use crate::plan::{Effect, Plan, Wanted};
 use crate::render::ledger::{self, Ledger};
-use crate::render::{Outcome, Sampling, Settings, Stop, render};
+use crate::render::{Outcome, Settings, render};
 use crate::source::Span;
 use crate::study::clock::Clock;
 
@@ -72,15 +72,7 @@ fn area(camera: &Camera) -> f64 {
 
 /// Some passes over a picture.
 pub fn passes(lowered: &Lowered, plan: &Plan, passes: u32, seed: u64) -> Outcome {
-    let stop = Stop { passes: Some(passes), ..Stop::default() };
-    let settings = Settings {
-        method: lowered.method,
-        max_depth: plan.depth,
-        seed,
-        stop,
-        crop: None,
-        sampling: Sampling::Sobol,
-    };
+    let settings = Settings { seed, ..Settings::new(lowered.method, plan.depth, passes) };
     render(&lowered.world, &settings, &())
 }
 

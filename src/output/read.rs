@@ -32,6 +32,14 @@ pub struct Picture {
 }
 
 impl Picture {
+    /// Radiances alone, with nothing known of them.
+    pub fn new(width: u32, height: u32, radiance: Vec<Rgb>) -> Self {
+        let (standard_error, tile_error, facts) = (None, None, Vec::new());
+        Self { width, height, radiance, standard_error, tile_error, is_display: false, facts }
+    }
+}
+
+impl Picture {
     /// A fact by its name.
     pub fn fact(&self, name: &str) -> Option<&str> {
         self.facts.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())

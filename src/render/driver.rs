@@ -100,6 +100,14 @@ pub struct Settings {
     pub crop: Option<Region>,
 }
 
+impl Settings {
+    /// So many passes over a whole picture, with Sobol points and seed 0.
+    pub fn new(method: Method, max_depth: u32, passes: u32) -> Self {
+        let stop = Stop { passes: Some(passes), ..Stop::default() };
+        Self { method, max_depth, seed: 0, sampling: Sampling::Sobol, stop, crop: None }
+    }
+}
+
 /// Watches a render. Called from the thread that renders, but for `cancelled`, which all threads call.
 pub trait Monitor: Sync {
     /// A pass was added to the film.
@@ -281,8 +289,7 @@ fn render_tile<I: Integrator>(integrator: &I, world: &World, region: Region, pas
     let start = Instant::now();
     let mut counters = Counters::default();
     let mut samples = vec![Rgb::BLACK; region.area()];
-    let side = integrator.group_side();
-    for group in region.squares(side, pass.grid_shift(side)) {
+    for group in groups(integrator, region, pass) {
         for (pixel, sample) in render_group(integrator, world, group, pass, None, &mut counters, &mut ()) {
             if let Some(index) = region.index_of(pixel) {
                 samples[index] = sample;
@@ -290,6 +297,14 @@ fn render_tile<I: Integrator>(integrator: &I, world: &World, region: Region, pas
         }
     }
     Done { tile: Tile { region, samples }, counters, seconds: start.elapsed().as_secs_f64() }
+}
+
+/// The groups that hold the pixels of a region; all of it is one where pixels have nothing to do with each other.
+fn groups<I: Integrator>(integrator: &I, region: Region, pass: Pass) -> Vec<Region> {
+    match integrator.group_side() {
+        1 => vec![region],
+        side => region.squares(side, pass.grid_shift(side)).collect(),
+    }
 }
 
 /// What a pass sees through the pixels of a group for which the lens lets a ray through; not a number where that is no

@@ -307,15 +307,7 @@ pub(super) mod tests {
 
     fn white() -> Reference {
         let radiance = vec![Rgb::WHITE; 4];
-        let picture = Picture {
-            width: 2,
-            height: 2,
-            radiance,
-            standard_error: None,
-            tile_error: None,
-            is_display: false,
-            facts: Vec::new(),
-        };
+        let picture = Picture::new(2, 2, radiance);
         Reference { picture, noise: None, factor: 1.0 }
     }
 

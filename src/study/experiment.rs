@@ -89,15 +89,7 @@ pub fn measure_run(
 
 /// A picture of the same size without pixels.
 pub fn frame_like(picture: &Picture) -> Picture {
-    Picture {
-        width: picture.width,
-        height: picture.height,
-        radiance: Vec::new(),
-        standard_error: None,
-        tile_error: None,
-        is_display: false,
-        facts: Vec::new(),
-    }
+    Picture::new(picture.width, picture.height, Vec::new())
 }
 
 /// Keeps the film at every doubling.

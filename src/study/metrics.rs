@@ -107,15 +107,7 @@ mod tests {
 
     fn picture(width: u32, radiance: Vec<Rgb>) -> Picture {
         let height = radiance.len() as u32 / width;
-        Picture {
-            width,
-            height,
-            radiance,
-            standard_error: None,
-            tile_error: None,
-            is_display: false,
-            facts: Vec::new(),
-        }
+        Picture::new(width, height, radiance)
     }
 
     /// A smooth picture with a pattern.

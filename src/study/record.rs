@@ -197,19 +197,7 @@ mod tests {
         record.add(measured(1, 1.0));
         record.add(measured(2, 3.0));
         assert_eq!(record.means[1], vec![Rgb::gray(2.0); 4]);
-        let like = Picture {
-            width: 2,
-            height: 2,
-            ..frame_like(&Picture {
-                width: 2,
-                height: 2,
-                radiance: Vec::new(),
-                standard_error: None,
-                tile_error: None,
-                is_display: false,
-                facts: Vec::new(),
-            })
-        };
+        let like = Picture::new(2, 2, Vec::new());
         folder.write("pt-1", &record, &like).unwrap();
         assert_eq!(folder.read("pt-1"), record);
         assert_eq!(folder.read("ppm-1"), Record::default());

@@ -5,7 +5,7 @@ use snell::render::bsdf::{Glass, Input, Material};
 use snell::render::camera::{Camera, CameraSpec, Filter};
 use snell::render::film::Film;
 use snell::render::shape::{MaterialId, Mesh, Solid, SolidKind, SourceId};
-use snell::render::{Effects, Method, Parts, Sampling, Settings, Stop, World, render};
+use snell::render::{Effects, Method, Parts, Settings, World, render};
 
 /// A constant grey input.
 pub fn gray(value: f32) -> Input {
@@ -131,8 +131,7 @@ pub fn cornell(side: u32, specular: bool) -> Parts {
 
 /// Path tracing for a number of passes.
 pub fn path_tracing(passes: u32, max_depth: u32) -> Settings {
-    let stop = Stop { passes: Some(passes), ..Stop::default() };
-    Settings { method: Method::Pt, max_depth, seed: 1, stop, crop: None, sampling: Sampling::Sobol }
+    Settings { seed: 1, ..Settings::new(Method::Pt, max_depth, passes) }
 }
 
 /// Renders by path tracing.

@@ -2,8 +2,8 @@
 
 use snell::diag::Problems;
 use snell::plan::Plan;
+use snell::render::Settings;
 use snell::render::film::Film;
-use snell::render::{Sampling, Settings, Stop};
 use snell::source::{Memory, SourceMap};
 
 /// What became of a text.
@@ -52,15 +52,8 @@ fn film(
     let mut plan = snell::plan::plan(&loaded, Some(camera), None);
     replan(&mut plan);
     let lowered = snell::lower::lower(&loaded, &plan, camera, files, problems)?;
-    let stop = Stop { passes: Some(passes), ..Stop::default() };
-    let settings = Settings {
-        method: lowered.method,
-        max_depth: plan.depth,
-        seed: scene.render.seed.map_or(1, |seed| seed.value),
-        stop,
-        crop: None,
-        sampling: Sampling::Sobol,
-    };
+    let seed = scene.render.seed.map_or(1, |seed| seed.value);
+    let settings = Settings { seed, ..Settings::new(lowered.method, plan.depth, passes) };
     Some(snell::render::render(&lowered.world, &settings, &()).film)
 }
 

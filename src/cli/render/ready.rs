@@ -12,7 +12,7 @@ use crate::lower::Lowered;
 use crate::output::{Display, Exposure, Target, Tone};
 use crate::plan::{Plan, Wish};
 use crate::render::film::Region;
-use crate::render::{Sampling, Settings, Stop};
+use crate::render::{Settings, Stop};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -106,13 +106,12 @@ fn settings(args: &RenderArgs, render: &ir::Render, plan: &Plan, lowered: &Lower
     };
     let stop = [flags, written].into_iter().find(|stop| *stop != Stop::default());
     let passes = if plan.is_exact { 1 } else { DEFAULT_PASSES };
+    let settings = Settings::new(lowered.method, plan.depth, passes);
     Settings {
-        method: lowered.method,
-        max_depth: plan.depth,
-        seed: args.seed.or(render.seed.map(|seed| seed.value)).unwrap_or(0),
-        stop: stop.unwrap_or(Stop { passes: Some(passes), ..Stop::default() }),
+        seed: args.seed.or(render.seed.map(|seed| seed.value)).unwrap_or(settings.seed),
+        stop: stop.unwrap_or(settings.stop),
         crop: args.crop,
-        sampling: Sampling::Sobol,
+        ..settings
     }
 }
 

@@ -1,6 +1,6 @@
 //! One pixel once more, with everything that happens on its paths.
 
-use super::{Method, Settings, render_group};
+use super::{Method, Settings, groups, render_group};
 use crate::math::Rgb;
 use crate::render::film::Region;
 use crate::render::integrator::{Classic, Counters, Event, Integrator, Pass, PathTracer, PhotonMapper};
@@ -43,9 +43,8 @@ fn run<I: Integrator>(
         let pass = Pass { index, seed: settings.seed, sampling: settings.sampling };
         integrator.begin_pass(pass, &mut counters, &|| false);
         let mut events = Vec::new();
-        let side = integrator.group_side();
         let own = Region { x: pixel[0], y: pixel[1], width: 1, height: 1 };
-        let group = own.squares(side, pass.grid_shift(side)).next().unwrap_or(own);
+        let group = groups(&integrator, own, pass).first().copied().unwrap_or(own);
         let seen = render_group(&integrator, world, group, pass, Some(pixel), &mut counters, &mut events);
         let sample = seen.into_iter().find(|(of, _)| *of == pixel).map_or(Rgb::BLACK, |(_, sample)| sample);
         Replay { pass: index, sample, events }
