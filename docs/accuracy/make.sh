@@ -38,4 +38,4 @@ for one in $SCENES; do
     *) echo "no scene is called $one" >&2; exit 2 ;;
     esac
 done
-cp "$work/cornell.html" "$out/"
+if [ -f "$work/cornell.html" ]; then cp "$work/cornell.html" "$out/"; fi
