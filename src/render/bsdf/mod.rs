@@ -5,6 +5,7 @@
 //! evaluate to zero, and only `sample` finds them.
 
 mod albedo;
+mod assemble;
 mod conductor;
 mod dielectric;
 mod dispersion;
@@ -13,6 +14,7 @@ mod ground;
 mod lambertian;
 mod lobe;
 mod material;
+mod materials;
 mod mirror;
 mod pane;
 mod phong;
@@ -20,16 +22,15 @@ mod relief;
 mod rough_dielectric;
 mod substrate;
 
+pub use assemble::lobe_count;
 pub use conductor::Conductor;
 pub use dielectric::fresnel_dielectric;
 pub use dispersion::Wavelength;
 pub use fresnel::Reflectance;
 pub use lambertian::Lambertian;
 pub use lobe::Lobe;
-pub use material::{
-    Emission, Glass, Input, Interior, Material, MaterialId, Materials, Principled, Relief, TextureId,
-    lobe_count,
-};
+pub use material::{Emission, Glass, Input, Interior, Material, MaterialId, Principled, Relief, TextureId};
+pub use materials::Materials;
 pub use pane::Pane;
 pub use relief::facing;
 pub use rough_dielectric::RoughDielectric;

@@ -1,6 +1,6 @@
 //! Normals that are bent by a picture of normals or of heights.
 
-use super::material::{Materials, Relief};
+use super::{Materials, Relief};
 use crate::math::Vec3;
 use crate::render::geometry::{Gradient, SurfacePoint};
 
