@@ -115,6 +115,11 @@ impl Gathering {
 }
 
 impl PathTracer<'_> {
+    /// Whether paths may look around from a vertex.
+    pub(super) fn looks_around(&self, walk: &Walk, vertex: &Vertex) -> bool {
+        self.gathering.is_some() && !walk.after_wide && vertex.bsdf.matt_albedo().is_some()
+    }
+
     /// How many paths look around from a vertex that sends `lit` on, of the light that lamps and photons brought.
     ///
     /// The fewer the more of its light that is: noise counts in proportion to the whole.
@@ -131,7 +136,7 @@ impl PathTracer<'_> {
     pub(super) fn gathered(&self, walk: &Walk, vertex: &Vertex) -> Option<Rgb> {
         let gathering = self.gathering.as_ref().filter(|_| walk.after_wide)?;
         let albedo = vertex.bsdf.matt_albedo()?;
-        if walk.ray.o.distance(vertex.surface.p) < NEAR * gathering.grid.side(vertex.surface.p) {
+        if walk.since_wide < NEAR * gathering.grid.side(vertex.surface.p) {
             return None;
         }
         gathering.cells.mean(&self.cell(&gathering.grid, vertex)).map(|white| albedo * white)

@@ -45,6 +45,9 @@ pub(super) struct Trace<'a, W> {
 /// over much more when it is seen, so that blur is hidden and a few photons are enough.
 const WIDE_ANGLE: f32 = 0.003;
 
+/// Lights drawn where many paths tell what comes from elsewhere: one would be the worst of the noise.
+pub(super) const LIGHTS: u32 = 4;
+
 impl<'a> PathTracer<'a> {
     /// A tracer of paths with at most `max_depth` vertices, the one on the light included and the camera not.
     pub fn new(world: &'a World, max_depth: u32) -> Self {
@@ -245,7 +248,11 @@ impl PathTracer<'_> {
                 trace.radiance += added;
                 return None;
             }
-            let lit = self.lit(walk, &vertex, trace);
+            let lit = if self.looks_around(walk, &vertex) {
+                self.lit_by(LIGHTS, 1.0, walk, &vertex, trace)
+            } else {
+                self.lit(walk, &vertex, trace)
+            };
             trace.radiance += walk.beta * lit;
             let count = self.gather_count(walk, &vertex, lit);
             if count > 1 {
@@ -291,6 +298,25 @@ impl PathTracer<'_> {
     /// What lamps and photons send to a vertex and on to the viewer.
     pub(super) fn lit(&self, walk: &Walk, vertex: &Vertex, trace: &mut Trace<impl Witness>) -> Rgb {
         let direct = self.direct(vertex, &walk.media, &walk.sampler, 1.0, trace.counters, trace.witness);
+        trace.witness.note(|| Event::Lit { added: walk.beta * direct });
+        direct + self.thrown(walk, vertex, trace.witness)
+    }
+
+    /// The same by several lights, beside each of which the bsdf tries `finders` times.
+    pub(super) fn lit_by(
+        &self,
+        lights: u32,
+        finders: f32,
+        walk: &Walk,
+        vertex: &Vertex,
+        trace: &mut Trace<impl Witness>,
+    ) -> Rgb {
+        let mut direct = Rgb::BLACK;
+        for i in 0..lights {
+            let sampler = walk.sampler.part(i, LIGHTS);
+            direct += self.direct(vertex, &walk.media, &sampler, finders, trace.counters, trace.witness);
+        }
+        let direct = direct / lights as f32;
         trace.witness.note(|| Event::Lit { added: walk.beta * direct });
         direct + self.thrown(walk, vertex, trace.witness)
     }
@@ -352,7 +378,7 @@ impl PathTracer<'_> {
             if is_sharp {
                 walk.last.sharp = walk.after_wide.then_some((surface.material, surface.prim));
             } else {
-                (walk.after_wide, walk.angle) = (true, walk.angle.max(WIDE_ANGLE));
+                (walk.after_wide, walk.angle, walk.since_wide) = (true, walk.angle.max(WIDE_ANGLE), 0.0);
             }
         }
         walk.leave(surface, next, self.world);

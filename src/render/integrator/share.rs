@@ -10,8 +10,8 @@
 //! All that a direction finds is shared, because parts make up for each other: where the sky is hidden, what hides it is
 //! bright, too. Only what looks otherwise from elsewhere, a gleam or a mirror, stays each path's own.
 
-use super::path::{PathTracer, Trace};
-use super::vertex::{Last, Vertex};
+use super::path::{LIGHTS, PathTracer, Trace};
+use super::vertex::Last;
 use super::walk::Walk;
 use super::{Counters, Event, Witness};
 use crate::math::{Ray, Rgb, Vec3};
@@ -30,9 +30,6 @@ pub const SIDE: u32 = 4;
 
 /// Receivers that share, at the most: where paths have forked, a group has more, and they share by so many.
 const MOST: usize = (SIDE * SIDE) as usize;
-
-/// Lights drawn at a receiver: with so many paths for what comes from elsewhere, one would be the worst of the noise.
-const LIGHTS: u32 = 4;
 
 /// The paths of a group of pixels.
 pub struct Group {
@@ -198,25 +195,6 @@ impl PathTracer<'_> {
         walk.last.pdf *= finders;
         walk.depth += 1;
         self.find(walk, finder, group, trace)
-    }
-
-    /// What lamps and photons send straight to a receiver, from several lights drawn.
-    fn lit_by(
-        &self,
-        lights: u32,
-        finders: f32,
-        walk: &Walk,
-        vertex: &Vertex,
-        trace: &mut Trace<impl Witness>,
-    ) -> Rgb {
-        let mut direct = Rgb::BLACK;
-        for i in 0..lights {
-            let sampler = walk.sampler.part(i, LIGHTS);
-            direct += self.direct(vertex, &walk.media, &sampler, finders, trace.counters, trace.witness);
-        }
-        let direct = direct / lights as f32;
-        trace.witness.note(|| Event::Lit { added: walk.beta * direct });
-        direct + self.thrown(walk, vertex, trace.witness)
     }
 
     /// Follows a path from a receiver to what it finds: a sender, or a vertex that it does not share.

@@ -29,6 +29,8 @@ pub struct Walk {
     pub media: Media,
     /// Whether a vertex scattered widely.
     pub after_wide: bool,
+    /// How far it went since the last one that did.
+    pub since_wide: f32,
     /// The width of what it covers, in metres, and by how much that grows for each metre.
     pub footprint: f32,
     pub angle: f32,
@@ -53,6 +55,7 @@ impl Walk {
             last: Last { from: Viewpoint { p: ray.o, n: None }, pdf: f32::INFINITY, sharp: None },
             media: Media::start(&world.materials, sampler),
             after_wide: false,
+            since_wide: 0.0,
             footprint: 0.0,
             angle: world.camera.pixel_angle(),
             share: 1.0,
@@ -75,6 +78,7 @@ impl Walk {
     pub fn pass_through(&mut self, t: f32, world: &World) {
         self.beta *= self.media.transmittance(t, &world.materials);
         self.footprint += self.angle * t;
+        self.since_wide += t;
     }
 
     /// The vertex that it is at.
