@@ -4,7 +4,7 @@ use super::region::{Extent, Region};
 use super::solid::{Form, Solid};
 use super::stuff::Glass;
 use super::surface::Surface;
-use super::{Meshes, OwnMaterial, SpaceError, Survey, Thing, all_of_them, corners, plane_of};
+use super::{Meshes, OwnMaterial, SpaceError, Survey, Thing, all_of_them, plane_of};
 use crate::ir::{Caps, ShapeKind};
 use crate::math::{DMat3, DVec2, DVec3};
 use crate::source::Span;
@@ -72,7 +72,7 @@ impl Survey<'_> {
     pub(super) fn open_glass(&self, meshes: &dyn Meshes) -> Vec<SpaceError> {
         let mut seen = FxHashSet::default();
         let doubts = self.things.iter().filter_map(|thing| {
-            let ShapeKind::Mesh { file, .. } = &thing.kind else { return None };
+            let ShapeKind::Mesh { file, scale, .. } = &thing.kind else { return None };
             let is_clear = |own: OwnMaterial| match thing.is_painted {
                 true => thing.stuff.clear.is_some(),
                 false => own == OwnMaterial::Clear,
@@ -82,7 +82,7 @@ impl Survey<'_> {
             }
             let parts = meshes.parts(thing.object.shape);
             let glass = parts.iter().filter(|part| is_clear(part.own));
-            let surface = Surface::weld_exactly(glass.flat_map(|part| corners(part, thing.kind)));
+            let surface = Surface::of_parts(glass, scale.value);
             surface_doubt(&surface, &file.value, file.span)
         });
         doubts.chain(self.open_ends()).chain(self.lone_glass()).collect()

@@ -264,16 +264,21 @@ impl<'a> Gathering<'a, '_> {
     }
 }
 
+/// What the positions of a mesh are multiplied by; 1 of all else.
+fn scale(kind: &ShapeKind) -> f64 {
+    if let ShapeKind::Mesh { scale, .. } = kind { scale.value } else { 1.0 }
+}
+
 /// The triangles of a part of a mesh, in the shape's frame.
 fn corners<'a>(part: &MeshPart<'a>, kind: &ShapeKind) -> impl Iterator<Item = [DVec3; 3]> + use<'a> {
-    let scale = if let ShapeKind::Mesh { scale, .. } = kind { scale.value } else { 1.0 };
+    let scale = scale(kind);
     let positions = part.positions;
     part.triangles.iter().map(move |t| t.map(|i| positions[i as usize].as_dvec3() * scale))
 }
 
 /// The surface of a mesh, if it is closed: as it is, or with its triangles turned one way.
 fn closed_surface(parts: &[MeshPart<'_>], kind: &ShapeKind) -> Option<Surface> {
-    let surface = Surface::weld_exactly(parts.iter().flat_map(|part| corners(part, kind)));
+    let surface = Surface::of_parts(parts, scale(kind));
     let seams = surface.seams();
     match (seams.open, seams.mixed) {
         (0, 0) => Some(surface),
