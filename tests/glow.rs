@@ -35,13 +35,16 @@ fn seen(text: &str, passes: u32) -> ([f64; 3], Vec<[f64; 3]>) {
 #[test]
 fn a_lamp_that_shines_by_a_picture_is_as_bright_as_its_fields() {
     // The picture's upper edge is that of `edge_v`.
-    let picture = "quad {
-        origin: (-1m, 2.5m, -1m), edge_u: (2m, 0m, 0m), edge_v: (0m, 0m, 2m)
-        material: principled {
-            color: 0, ior: 1
-            emission: (image { file: \"fields.ppm\", filter: nearest }) * 5
-        }
-    }";
+    let picture = |material: &str| {
+        format!(
+            "let fields = image {{ file: \"fields.ppm\", filter: nearest }}
+            quad {{
+                origin: (-1m, 2.5m, -1m), edge_u: (2m, 0m, 0m), edge_v: (0m, 0m, 2m), material: {material}
+            }}"
+        )
+    };
+    let model = picture("principled { color: 0, ior: 1, emission: fields * 5 }");
+    let lamp = picture("emissive { radiance: fields * 2.5, color: 2 }");
     let field = |x: &str, z: &str, color: &str| {
         format!(
             "quad {{
@@ -51,7 +54,7 @@ fn a_lamp_that_shines_by_a_picture_is_as_bright_as_its_fields() {
         )
     };
     let fields = [field("-1m", "0m", "rgb(1, 0, 0)"), field("0m", "-1m", "rgb(0, 0, 1)")].concat();
-    for (method, passes) in [("pt", 512), ("ppm", 96)] {
+    for (picture, method, passes) in [(&model, "pt", 512), (&lamp, "pt", 512), (&model, "ppm", 96)] {
         let (a, left) = seen(&room(picture, method), passes);
         let (b, right) = seen(&room(&fields, method), passes);
         for channel in [0, 2] {

@@ -159,7 +159,7 @@ impl Check<'_> {
                     .for_each(|&input| self.factor(input));
                 self.ior(*ior);
             }
-            MaterialKind::Emissive { brightness, color } => self.glow(*brightness, *color),
+            MaterialKind::Emissive { brightness, color, .. } => self.glow(*brightness, *color),
             MaterialKind::Mix { amount, .. } => self.share("`amount`", *amount),
         }
     }

@@ -225,8 +225,9 @@ fn material_kind(material: &Material) -> String {
         MaterialKind::Bump { base, height, depth } => {
             format!("bump {base:?} texture {:?} depth {}", height.value, number(*depth))
         }
-        MaterialKind::Emissive { brightness: b, color } => {
-            format!("emissive {} color {}", brightness(b.value), rgb(*color))
+        MaterialKind::Emissive { brightness: b, map, color } => {
+            let map = map.map_or(String::new(), |map| format!(" texture {:?}", map.value));
+            format!("emissive {}{map} color {}", brightness(b.value), rgb(*color))
         }
         MaterialKind::Whitted { diffuse, specular, shininess, reflection, transmission, ior, fresnel } => {
             format!(

@@ -148,6 +148,8 @@ pub enum MaterialKind {
     Emissive {
         /// How bright: power over the whole object, or radiance.
         brightness: Spanned<Brightness>,
+        /// What the radiance is multiplied by, from place to place.
+        map: Option<Spanned<Handle<Texture>>>,
         /// Its colour.
         color: Rgb,
     },
@@ -209,7 +211,8 @@ impl MaterialKind {
             Self::NormalMap { map: texture, .. } | Self::Bump { height: texture, .. } => {
                 vec![Input::Texture(*texture)]
             }
-            Self::Emissive { .. } | Self::TwoSided { .. } => Vec::new(),
+            Self::Emissive { map, .. } => map.iter().map(|map| Input::Texture(*map)).collect(),
+            Self::TwoSided { .. } => Vec::new(),
         }
     }
 

@@ -213,8 +213,15 @@ impl<'a> Materials<'a> {
                 };
                 self.relief(*base, relief, radiance)
             }
-            MaterialKind::Emissive { brightness, color } => {
-                Material::Emissive { radiance: radiance(brightness.value, *color), two_sided: false }
+            MaterialKind::Emissive { brightness, map, color } => {
+                let radiance = radiance(brightness.value, *color);
+                match map.map(|map| self.texture(map.value, Slot::Color)) {
+                    None => Material::Emissive { radiance, two_sided: false },
+                    Some(bsdf::Input::Constant(mean)) => {
+                        Material::Emissive { radiance: radiance * mean, two_sided: false }
+                    }
+                    Some(map) => self.glow(Material::Emissive { radiance, two_sided: false }, map),
+                }
             }
             MaterialKind::Whitted {
                 diffuse,

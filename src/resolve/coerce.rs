@@ -136,7 +136,10 @@ impl<'a> Resolver<'a> {
             | (Type::Absorption, value @ Value::Absorption(..))
             | (Type::List | Type::Outlines, value @ Value::List(_))
             | (Type::Block(_), value @ Value::Block(_))
-            | (Type::ColorInput | Type::NumberInput | Type::SkyInput, value @ Value::Texture(_)) => value,
+            | (
+                Type::ColorInput | Type::RadianceInput | Type::NumberInput | Type::SkyInput,
+                value @ Value::Texture(_),
+            ) => value,
             (_, Value::Word(word)) if ty.words().is_some_and(|words| words.contains(&word)) => {
                 Value::Word(word)
             }
@@ -253,10 +256,13 @@ impl<'a> Resolver<'a> {
             (Type::Material, Value::Texture(_)) => {
                 "put it into a material: `diffuse { color: .. }`".to_owned()
             }
-            (Type::Color | Type::ColorInput | Type::LightColor, Value::Tuple(_)) => {
+            (Type::Color | Type::ColorInput | Type::RadianceInput | Type::LightColor, Value::Tuple(_)) => {
                 format!("write `rgb{text}`")
             }
-            (Type::Texture | Type::ColorInput | Type::NumberInput | Type::SkyInput, Value::Text(_)) => {
+            (
+                Type::Texture | Type::ColorInput | Type::RadianceInput | Type::NumberInput | Type::SkyInput,
+                Value::Text(_),
+            ) => {
                 format!("a picture is `image({text})`")
             }
             (Type::Stop, Value::Number(count)) if count.dimension == Dimension::NONE => {
@@ -344,6 +350,7 @@ fn as_color(value: &Value, ty: Type) -> Option<Rgb> {
             | Type::LightColor
             | Type::Radiance
             | Type::ColorInput
+            | Type::RadianceInput
             | Type::NumberInput
             | Type::SkyInput
     );

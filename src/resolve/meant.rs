@@ -122,7 +122,7 @@ fn fits(definition: &Definition, wanted: Wanted) -> bool {
 fn is_like(value: &Value, ty: Type) -> bool {
     use Type::{
         Absorption, Bool, Cells, Color, ColorInput, Curve, Focus, LightColor, List, Material, Object, Offset,
-        Outline, Outlines, Pair, Point, Radiance, SkyInput, Text, Texture, Transform, Vector,
+        Outline, Outlines, Pair, Point, Radiance, RadianceInput, SkyInput, Text, Texture, Transform, Vector,
     };
     match value {
         Value::Number(Quantity { dimension, .. }) => {
@@ -130,13 +130,17 @@ fn is_like(value: &Value, ty: Type) -> bool {
         }
         Value::Bool(_) => ty == Bool,
         Value::Text(_) => ty == Text,
-        Value::Color(_) => matches!(ty, Color | LightColor | Radiance | ColorInput | SkyInput | Absorption),
+        Value::Color(_) => {
+            matches!(ty, Color | LightColor | Radiance | ColorInput | RadianceInput | SkyInput | Absorption)
+        }
         Value::Tuple(_) => matches!(ty, Point | Offset | Vector | Pair | Cells | Focus),
         Value::List(_) => matches!(ty, List | Outlines),
         Value::Transform(_) => ty == Transform,
         Value::Curve(_) => matches!(ty, Curve | Outline | Outlines),
         Value::Material(_) => ty == Material,
-        Value::Texture(_) => matches!(ty, Texture | ColorInput | SkyInput | Type::NumberInput),
+        Value::Texture(_) => {
+            matches!(ty, Texture | ColorInput | RadianceInput | SkyInput | Type::NumberInput)
+        }
         Value::Object(_) => matches!(ty, Object | Focus),
         Value::Function(_) | Value::Builtin(_) | Value::Module(_) => false,
         _ => true,
@@ -165,7 +169,15 @@ fn known_words<'n>(wanted: Wanted) -> impl Iterator<Item = (&'n str, bool)> {
         .filter(move |_| is_function || any)
         .map(move |name| -> (&'n str, bool) { (name, is_function) });
     let takes_color = ty.is_some_and(|ty| {
-        matches!(ty, Type::Color | Type::LightColor | Type::Radiance | Type::ColorInput | Type::SkyInput)
+        matches!(
+            ty,
+            Type::Color
+                | Type::LightColor
+                | Type::Radiance
+                | Type::ColorInput
+                | Type::RadianceInput
+                | Type::SkyInput
+        )
     });
     let colors = schema::COLORS
         .iter()

@@ -100,7 +100,7 @@ const PRINCIPLED: &[Field] = &[
     field("clearcoat_roughness", Type::NumberInput, "Of that coat.").or(0.0).within(SHARE),
     field(
         "emission",
-        Type::ColorInput,
+        Type::RadianceInput,
         "What it shines by itself, in W/m²/sr; by a picture: `image(..) * 5`.",
     )
     .or(0.0),
@@ -148,7 +148,11 @@ const BUMP: &[Field] = &[
 ];
 
 const EMISSIVE: &[Field] = &[
-    field("radiance", Type::Radiance, "W/m²/sr, times `color`; 1 if neither this nor `power` is said."),
+    field(
+        "radiance",
+        Type::RadianceInput,
+        "W/m²/sr, times `color`; 1 if neither this nor `power` is said; by a picture: `image(..) * 5`.",
+    ),
     field("power", Type::Power, "Over the whole object, instead of `radiance`."),
     field("color", Type::LightColor, "The colour of the light.").or(1.0),
 ];

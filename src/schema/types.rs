@@ -49,6 +49,8 @@ pub enum Type {
     Absorption,
     /// A colour or a texture.
     ColorInput,
+    /// A radiance, or a texture of it.
+    RadianceInput,
     /// A number or a texture.
     NumberInput,
     /// A colour, a temperature, or an image.
@@ -197,6 +199,7 @@ impl Type {
             Self::Radiance => "a number or a colour",
             Self::Absorption => "a colour per length",
             Self::ColorInput => "a colour or a texture",
+            Self::RadianceInput => "a number, a colour or a texture",
             Self::NumberInput => "a number or a texture",
             Self::SkyInput => "a colour or an image",
             Self::Material => "a material",
@@ -242,7 +245,7 @@ impl Type {
             Self::Cells => "8",
             Self::Color | Self::ColorInput => "#ff8800",
             Self::LightColor => "3200K",
-            Self::Radiance => "10",
+            Self::Radiance | Self::RadianceInput => "10",
             Self::Absorption => "#f4fff6 per 10cm",
             Self::SkyInput => "image(\"sky.hdr\")",
             Self::Material => "diffuse { color: #ff8800 }",
@@ -276,7 +279,7 @@ impl Type {
             Self::Lens => block.area == Area::Camera && !matches!(block.kind, "film" | "photo" | "crop"),
             Self::Exposure => block.kind == "photo",
             Self::Projection => Self::PROJECTIONS.contains(&block.kind),
-            Self::Texture | Self::ColorInput | Self::NumberInput => {
+            Self::Texture | Self::ColorInput | Self::RadianceInput | Self::NumberInput => {
                 block.area == Area::Texture && !Self::PROJECTIONS.contains(&block.kind)
             }
             Self::SkyInput | Self::Heights => block.kind == "image",

@@ -56,7 +56,7 @@ impl Scene {
             _ if NUMERIC.contains(&ty) => self.number(ty, example, depth),
             _ if TUPLES.contains(&ty) => self.tuple(ty, example, depth),
             Type::Bool => self.condition(inner),
-            Type::Color | Type::ColorInput | Type::LightColor => self.color(ty, inner),
+            Type::Color | Type::ColorInput | Type::RadianceInput | Type::LightColor => self.color(ty, inner),
             Type::Absorption => {
                 self.plain(Type::Color, "#f4fff6", inner);
                 self.sign("per");
@@ -207,7 +207,9 @@ impl Scene {
         match self.random().below(7) {
             0 => self.out.put("tomato"),
             1 if ty == Type::LightColor => self.number_or(Type::Temperature, "3200K", depth),
-            1 if ty == Type::ColorInput => self.plain(Type::Texture, Type::Texture.example(), depth),
+            1 if matches!(ty, Type::ColorInput | Type::RadianceInput) => {
+                self.plain(Type::Texture, Type::Texture.example(), depth)
+            }
             2 => self.call_of(Topic::Colors, depth),
             3 => {
                 self.out.put("#2f4F00");

@@ -31,8 +31,11 @@ impl<'a> Resolver<'a> {
     /// An object that is placed with a material that shines.
     fn glowing(&mut self, fields: &Fields<'a>, span: Span) -> Option<Rc<Node>> {
         let Value::Object(object) = &fields.value("object")?.value else { return None };
-        let kind =
-            MaterialKind::Emissive { brightness: brightness(fields)?, color: fields.color("color")?.value };
+        let kind = MaterialKind::Emissive {
+            brightness: brightness(fields)?,
+            map: None,
+            color: fields.color("color")?.value,
+        };
         let material = Material { kind, span, name: None, calls: self.calls_here() };
         let material = Some(self.scene.materials.push(material));
         self.node(NodeKind::Place(Rc::clone(object)), Rc::new([]), material, span)

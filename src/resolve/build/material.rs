@@ -75,8 +75,8 @@ impl<'a> Resolver<'a> {
                 depth: fields.number("depth")?.value,
             },
             "emissive" => {
-                let brightness = glow_of(fields);
-                MaterialKind::Emissive { brightness, color: fields.color("color")?.value }
+                let (brightness, map) = glow_of(fields)?;
+                MaterialKind::Emissive { brightness, map, color: fields.color("color")?.value }
             }
             "whitted" => MaterialKind::Whitted {
                 diffuse: fields.input("diffuse")?,
@@ -155,8 +155,17 @@ fn metal_color(fields: &Fields) -> Option<MetalColor> {
     Some(MetalColor::Named { name: Spanned::new(word.value.to_owned(), word.span), straight, edge })
 }
 
-fn glow_of(fields: &Fields) -> Spanned<Brightness> {
-    let power = fields.number("power").map(|power| power.map(Brightness::Power));
-    let radiance = fields.color("radiance").map(|radiance| radiance.map(Brightness::Radiance));
-    radiance.or(power).unwrap_or(Spanned::new(Brightness::Radiance(Rgb::WHITE), fields.head))
+/// How bright what shines is, and the picture of that, if there is one.
+fn glow_of(fields: &Fields) -> Option<(Spanned<Brightness>, Option<Spanned<Handle<Texture>>>)> {
+    let white = |span| Spanned::new(Brightness::Radiance(Rgb::WHITE), span);
+    if fields.has("power") {
+        return Some((fields.number("power")?.map(Brightness::Power), None));
+    }
+    if !fields.has("radiance") {
+        return Some((white(fields.head), None));
+    }
+    Some(match fields.input("radiance")? {
+        Input::Constant(radiance) => (radiance.map(Brightness::Radiance), None),
+        Input::Texture(map) => (white(map.span), Some(map)),
+    })
 }
