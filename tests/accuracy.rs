@@ -4,11 +4,12 @@
 use super::laws::worlds::{camera, cornell, cuboid, diffuse, emissive, empty, quad, sphere};
 use snell::math::{Rgb, Vec3};
 use snell::output::Picture;
+use snell::render::bsdf::{Glass, Material};
 use snell::render::film::Film;
 use snell::render::light::{Environment, EnvironmentRadiance};
 use snell::render::{
-    Method, Monitor, Outcome, Parts, PpmSettings, Progress, Sampling, Settings, Stop, StoppedBy, World,
-    render,
+    GatherRadius, HybridSettings, Method, Monitor, Outcome, Parts, PpmSettings, Progress, Sampling, Settings,
+    Stop, StoppedBy, World, render,
 };
 use snell::study::metrics::{Relative, mean};
 use snell::study::statistics::{line_through, median};
@@ -16,6 +17,25 @@ use std::sync::Mutex;
 
 /// Four scenes whose noise has a finite variance.
 fn scenes(side: u32) -> [(&'static str, World); 4] {
+    parts(side).map(|(name, parts)| (name, World::new(parts)))
+}
+
+/// The same with caustics, from a ball of glass or a mirror in each.
+fn caustic_scenes(side: u32) -> [(&'static str, World); 4] {
+    let balls = [(Vec3::ZERO, 0.0), (Vec3::new(0.4, 0.3, 0.6), 0.3), (Vec3::new(0.9, 0.3, 0.3), 0.3), {
+        (Vec3::new(0.4, -0.5, -0.4), 0.35)
+    }];
+    let mut scenes = parts(side);
+    scenes[0].1 = cornell(side, true);
+    for ((_, parts), (center, radius)) in scenes.iter_mut().zip(balls).skip(1) {
+        let glass = parts.materials.len() as u32;
+        parts.materials.push(Material::Glass(Glass::of_ior(1.5)));
+        parts.solids.push(sphere(center, radius, glass));
+    }
+    scenes.map(|(name, parts)| (name, World::new(parts)))
+}
+
+fn parts(side: u32) -> [(&'static str, Parts); 4] {
     let floor = |parts: &mut Parts| {
         parts.materials = vec![diffuse(0.6), emissive(3.0)];
         parts.meshes = vec![quad(Vec3::new(-4.0, 0.0, -4.0), Vec3::Z * 8.0, Vec3::X * 8.0, 0)];
@@ -34,7 +54,6 @@ fn scenes(side: u32) -> [(&'static str, World); 4] {
     room.meshes = cuboid(Vec3::splat(-1.0), Vec3::new(1.0, 2.0, 1.0), true, 0);
     room.meshes.push(quad(Vec3::new(-0.5, 1.99, -0.5), Vec3::X, Vec3::Z, 1));
     [("cornell", cornell(side, false)), ("lamp", lamp), ("sky", sky), ("room", room)]
-        .map(|(name, parts)| (name, World::new(parts)))
 }
 
 fn settings(seed: u64, stop: Stop) -> Settings {
@@ -144,6 +163,108 @@ fn printed_intervals_hold_the_truth_at_length() {
     }
 }
 
+/// Renders with photons: of how many what was said held.
+#[derive(Debug)]
+struct Photons {
+    runs: usize,
+    /// The interval of noise held how far the picture is from the mean of all such pictures.
+    noise: usize,
+    /// The bounds of blur held how far that mean is from the truth.
+    least: usize,
+    most: usize,
+    /// The interval of both held how far the picture is from the truth.
+    total: usize,
+}
+
+/// What photons say of their errors, against the truth by paths and against the mean of the other runs.
+fn photon_coverage(
+    worlds: [(&'static str, World); 4],
+    method: Method,
+    reference_passes: u32,
+    runs: u64,
+    passes: u32,
+) -> Vec<(&'static str, Photons)> {
+    let of = |(name, world): (&'static str, World)| {
+        let truth = Truth::of(&world, reference_passes);
+        let settings = |seed| Settings { method, ..settings(seed, after(passes)) };
+        let films: Vec<Film> = (0..runs).map(|seed| render(&world, &settings(seed), &()).film).collect();
+        let means: Vec<Vec<Rgb>> = films.iter().map(Film::mean).collect();
+        let relative = Relative::to(truth.picture.mean_luminance());
+        let squared = |a: &[Rgb], b: &[Rgb]| {
+            let pairs = a.iter().zip(b).zip(&truth.picture.radiance);
+            mean_of(pairs.map(|((&a, &b), &r)| relative.of_standard_error(a - b, r)))
+        };
+        let n = runs as f64;
+        let all: Vec<Rgb> = (0..means[0].len())
+            .map(|i| means.iter().map(|mean| mean[i]).sum::<Rgb>() / runs as f32)
+            .collect();
+        // A run is (n − 1) / n as far from the mean of all as from that of the others, whose own noise it has beside its own.
+        let spread = mean_of(means.iter().map(|mean| squared(mean, &all))) * n / (n - 1.0);
+        let noise_of = |mean: &[Rgb]| {
+            let of_others = squared(mean, &all) * (n / (n - 1.0)).powi(2) - spread / (n - 1.0);
+            of_others.max(0.0).sqrt()
+        };
+        let blur = squared(&all, &truth.picture.radiance) - spread / n - truth.noise;
+        let blur = blur.max(0.0).sqrt();
+        let mut held = Photons { runs: films.len(), noise: 0, least: 0, most: 0, total: 0 };
+        for (film, mean) in films.iter().zip(&means) {
+            let estimate = film.error().expect("many passes");
+            let (low, high) = estimate.interval.expect("four passes or more");
+            held.noise += usize::from((low..=high).contains(&noise_of(mean)));
+            // Where no light that photons bring is in the picture, there is no blur.
+            held.least += usize::from(estimate.blur.is_none_or(|bounds| bounds.least <= blur));
+            held.most += usize::from(estimate.blur.is_none_or(|bounds| blur <= bounds.most));
+            let (low, high) = estimate.total_interval().expect("eight passes or more");
+            held.total += usize::from((low..=high).contains(&truth.error_of(film)));
+        }
+        (name, held)
+    };
+    worlds.into_iter().map(of).collect()
+}
+
+fn ppm() -> Method {
+    Method::Ppm(PpmSettings { photon_count: 2_000, k: 60, radius: 0.3, shrink: 2.0 / 3.0 })
+}
+
+fn hybrid() -> Method {
+    let radius = GatherRadius::Pixels(1.5);
+    Method::Hybrid(HybridSettings { photon_count: 2_000, k: 500, radius, shrink: 2.0 / 3.0 })
+}
+
+/// The share of all runs.
+fn share(found: &[(&'static str, Photons)], of: fn(&Photons) -> usize) -> f64 {
+    let sum = |of: fn(&Photons) -> usize| found.iter().map(|(_, photons)| of(photons)).sum::<usize>();
+    let runs = sum(|photons| photons.runs);
+    sum(of) as f64 / runs as f64
+}
+
+#[test]
+fn printed_intervals_of_photons_hold_the_truth() {
+    for (worlds, method) in [(scenes(10), ppm()), (caustic_scenes(10), hybrid())] {
+        let found = photon_coverage(worlds, method, 2048, 12, 16);
+        for of in [|p: &Photons| p.noise, |p: &Photons| p.least, |p: &Photons| p.most, |p: &Photons| p.total]
+        {
+            // Of 48 intervals of 95 %, 41 or more hold the truth with probability 0.99.
+            assert!(share(&found, of) >= 41.0 / 48.0, "{method:?}: {found:?}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "takes minutes: 1,600 renders"]
+fn printed_intervals_of_photons_hold_the_truth_at_length() {
+    for (worlds, method) in [(scenes(16), ppm()), (caustic_scenes(16), hybrid())] {
+        let found = photon_coverage(worlds, method, 8192, 200, 64);
+        println!("{method:?}: {found:?}");
+        let noise = share(&found, |photons| photons.noise);
+        assert!((0.92..=0.985).contains(&noise), "{method:?}: {found:?}");
+        // Bounds, and what is made of them, are on the safe side.
+        for of in [|p: &Photons| p.least, |p: &Photons| p.most, |p: &Photons| p.total] {
+            assert!(share(&found, of) >= 0.92, "{method:?}: {found:?}");
+        }
+    }
+}
+
 /// For each scene how many of some renders that stop at an error have reached it.
 fn reached(side: u32, reference_passes: u32, runs: u64, times: f64) -> Vec<(&'static str, usize)> {
     let of = |(name, world): (&'static str, World)| {
@@ -206,7 +327,7 @@ fn prophecies(side: u32, runs: u64) -> Vec<(f64, f64)> {
         (all / taken, (all - taken).abs() / (taken - f64::from(at)).max(1.0))
     };
     let worlds = scenes(side).map(|(_, world)| world);
-    let targets = [0.08, 0.04, 0.01, 0.035];
+    let targets = [0.03, 0.04, 0.007, 0.012];
     let pairs = || worlds.iter().zip(targets);
     (0..runs).flat_map(|seed| pairs().map(move |(world, target)| of(world, seed, target))).collect()
 }
@@ -231,7 +352,9 @@ fn the_passes_that_are_left_are_foretold_at_length() {
     let found = prophecies(48, 20);
     let (near, left) = quality(&found);
     println!("{near} within 0.7 to 1.5, {left} of what is left");
-    assert!(near >= 0.8 && left < 0.15, "{near} {left}: {found:.2?}");
+    // Of eight streams, how far their pictures' errors differ is known to a quarter, and that decides about a seventh of the
+    // passes, when they are foretold as well as when the render stops.
+    assert!(near >= 0.8 && left < 0.3, "{near} {left}: {found:.2?}");
 }
 
 #[test]

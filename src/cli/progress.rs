@@ -52,8 +52,10 @@ impl Bar {
     }
 }
 
-/// The seconds left until the first of the stops, as an interval that narrows as the estimate of the error does;
-/// `None` before anything is known.
+/// How many times the passes foretold an error takes, in four of five renders.
+const FORETOLD: (f64, f64) = (0.7, 1.5);
+
+/// The seconds left until the first of the stops, as an interval; `None` before anything is known.
 fn left(
     stop: &Stop,
     passes: u32,
@@ -65,11 +67,9 @@ fn left(
     let by_passes = stop.passes.map(|most| until(f64::from(most))).map(|s| (s, s));
     let by_time = stop.seconds.map(|most| (most - seconds).max(0.0)).map(|s| (s, s));
     let by_error = stop.error.zip(estimate).map(|(target, (at, estimate))| {
-        // The render stops when the upper end of the interval is below the target. That end may come closer to the
-        // estimate until then, and the estimate may move within its interval.
-        let needed = |error: f64| until(f64::from(at) * (error / target).powi(2));
-        let (low, high) = estimate.interval.unwrap_or((0.5 * estimate.error, 2.0 * estimate.error));
-        (needed(low.max(0.5 * estimate.error)), needed(high))
+        let needed = f64::from(at) * estimate.effort_to(target);
+        let (least, most) = FORETOLD;
+        (until(least * needed), until(most * needed))
     });
     let all = [by_passes, by_time, by_error].into_iter().flatten();
     all.reduce(|a, b| (a.0.min(b.0), a.1.min(b.1)))
@@ -104,7 +104,7 @@ impl Monitor for Bar {
         let mut text = format!("pass {passes}, {}", left_text(left));
         if let Some((at, estimate)) = state.estimate {
             let age = if at == passes { String::new() } else { format!(" at pass {at}") };
-            text += &format!(", error {}{age}", percent(estimate.error));
+            text += &format!(", error {}{age}", percent(estimate.total()));
         }
         match &self.bar {
             Some(bar) => {
@@ -156,16 +156,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_time_left_is_to_the_first_stop_and_narrows() {
+    fn the_time_left_is_to_the_first_stop() {
         let estimate = |spread: f64| {
             let interval = Some((0.02 / spread, 0.02 * spread));
-            Some((100, ErrorEstimate { error: 0.02, interval, trimmed: 0.02, blur: None }))
+            Some((100, ErrorEstimate { error: 0.02, interval, trimmed: 0.02, steady: 1.0, blur: None }))
         };
         let by_error = Stop { error: Some(0.01), ..Stop::default() };
         let (low, high) = left(&by_error, 100, 10.0, estimate(1.1)).unwrap();
         assert!(low < 30.0 && 30.0 < high, "four times the passes are needed: {low} to {high}");
-        let (nearer, _) = left(&by_error, 100, 10.0, estimate(1.01)).unwrap();
-        assert!(nearer > low);
+        let (_, farther) = left(&by_error, 100, 10.0, estimate(1.3)).unwrap();
+        assert!(farther > high, "the upper end of a wider interval has farther to fall");
         let or_time = Stop { seconds: Some(15.0), ..by_error };
         assert_eq!(left(&or_time, 100, 10.0, estimate(1.1)), Some((5.0, 5.0)));
         let passes = Stop { passes: Some(400), ..Stop::default() };

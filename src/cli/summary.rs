@@ -3,7 +3,7 @@
 use super::lossy::Loss;
 use super::progress::{duration, percent};
 use crate::plan::Plan;
-use crate::render::film::BadSample;
+use crate::render::film::{BadSample, BlurBounds};
 use crate::render::{GatherRadius, Method, Outcome, Settings, Stop, StoppedBy};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -95,7 +95,7 @@ impl Summary<'_> {
     pub fn line(&self) -> String {
         let stats = &self.outcome.stats;
         let files = if self.files.is_empty() { "nothing written".to_owned() } else { self.files.join(", ") };
-        let error = self.outcome.error.map_or(String::new(), |e| format!(", error {}", percent(e.error)));
+        let error = self.outcome.error.map_or(String::new(), |e| format!(", error {}", percent(e.total())));
         let seconds = duration(self.compile_seconds + self.build_seconds + stats.seconds);
         let passes = count(u64::from(stats.passes));
         format!("{files}, {passes} passes in {seconds}{error}{}", self.stop_text())
@@ -149,7 +149,10 @@ impl Summary<'_> {
                 "rel_mse": e.error * e.error,
                 "trimmed": e.trimmed,
                 "firefly_share": e.firefly_share(),
-                "blur_at_least": e.blur,
+                "steady_share": e.steady,
+                "blur_at_least": e.blur.map(|blur| blur.least),
+                "blur": e.blur.filter(BlurBounds::is_known).map(|blur| blur.likely),
+                "blur_at_most": e.blur.filter(BlurBounds::is_known).map(|blur| blur.most),
                 "total": e.total(),
                 "half_takes_seconds": stats.seconds * self.effort_for_half(),
             })),
@@ -264,7 +267,7 @@ impl Summary<'_> {
         let stats = &self.outcome.stats;
         let half = duration(stats.seconds * self.effort_for_half());
         let asked = match self.settings.stop {
-            Stop { error: Some(target), .. } if target < e.error => {
+            Stop { error: Some(target), .. } if target < e.high() => {
                 format!(
                     ", the {} asked for {}",
                     percent(target),
@@ -307,11 +310,14 @@ impl Summary<'_> {
 }
 
 /// What is known of the error that photons make beside noise.
-fn blur_text(blur: Option<f64>) -> String {
+fn blur_text(blur: Option<BlurBounds>) -> String {
     match blur {
-        Some(blur) if blur > 0.0 => format!("; blur at least {}", percent(blur)),
-        Some(_) => "; no blur found".to_owned(),
-        None => "; blur unknown below six passes".to_owned(),
+        None => String::new(),
+        Some(blur) if !blur.is_known() => "; blur unknown below eight passes".to_owned(),
+        Some(BlurBounds { least, most, .. }) if least > 0.0 => {
+            format!("; blur {} to {}", percent(least), percent(most))
+        }
+        Some(BlurBounds { most, .. }) => format!("; blur at most {}", percent(most)),
     }
 }
 

@@ -11,6 +11,7 @@ mod tile;
 
 use crate::math::Rgb;
 use blur::Blur;
+pub use blur::BlurBounds;
 pub use error::ErrorEstimate;
 pub use tile::ERROR_TILE;
 
@@ -140,11 +141,14 @@ impl Film {
     }
 
     /// Adds a pass of photons, gathered from discs whose squared radius is `blur` times that of the first pass. 0: of no
-    /// photons.
+    /// photons. A film whose first pass had none has none.
     pub fn add_blurred_pass(&mut self, tiles: &[Tile], blur: f64) {
         let (pass, pixels) = (self.passes, self.region.area());
-        if blur > 0.0 {
-            self.blur.get_or_insert_default().begin_pass(pass, blur, pixels);
+        if pass == 0 && blur > 0.0 {
+            self.blur = Some(Blur::default());
+        }
+        if let Some(sums) = &mut self.blur {
+            sums.begin_pass(pass, blur, pixels);
         }
         let stream = (self.passes % STREAMS) as usize;
         if self.streams.len() == stream {
@@ -157,7 +161,7 @@ impl Film {
                     let sum = &mut self.streams[stream][index];
                     let sample = sample.to_array().map(f64::from);
                     *sum = [0, 1, 2].map(|channel| sum[channel] + sample[channel]);
-                    if let Some(sums) = self.blur.as_mut().filter(|_| blur > 0.0) {
+                    if let Some(sums) = &mut self.blur {
                         sums.add(pass, blur, index, sample);
                     }
                 } else {

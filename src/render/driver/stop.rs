@@ -82,9 +82,9 @@ mod tests {
 
     #[test]
     fn the_next_look_is_where_the_target_is_expected() {
-        let estimate =
-            ErrorEstimate { error: 0.02, interval: Some((0.018, 0.022)), trimmed: 0.02, blur: None };
-        assert_eq!(next_look(64, &estimate, 0.02), 77); // n = 64 · 1.1^(2 √(64/n))
+        let interval = Some((0.018, 0.022));
+        let estimate = ErrorEstimate { error: 0.02, interval, trimmed: 0.02, steady: 1.0, blur: None };
+        assert_eq!(next_look(64, &estimate, 0.02), 78); // 64 · 1.1²
         assert_eq!(next_look(64, &estimate, 0.001), 128);
         assert_eq!(next_look(64, &estimate, 0.0215), 71);
     }
