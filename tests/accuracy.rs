@@ -240,8 +240,8 @@ fn share(found: &[(&'static str, Photons)], of: fn(&Photons) -> usize) -> f64 {
 
 #[test]
 fn printed_intervals_of_photons_hold_the_truth() {
-    for (worlds, method) in [(scenes(10), ppm()), (caustic_scenes(10), hybrid())] {
-        let found = photon_coverage(worlds, method, 2048, 12, 16);
+    for (worlds, method) in [(scenes(8), ppm()), (caustic_scenes(8), hybrid())] {
+        let found = photon_coverage(worlds, method, 1024, 12, 16);
         for of in [|p: &Photons| p.noise, |p: &Photons| p.least, |p: &Photons| p.most, |p: &Photons| p.total]
         {
             // Of 48 intervals of 95 %, 41 or more hold the truth with probability 0.99.
@@ -316,8 +316,9 @@ impl Monitor for Prophet {
 }
 
 /// Of renders that stop at an error, for each: the passes that were foretold at the first doubling after a tenth of the run
-/// over those it took, and the error of what was left then, as a share. Targets are such that a run takes some 200 passes.
-fn prophecies(side: u32, runs: u64) -> Vec<(f64, f64)> {
+/// over those it took, and the error of what was left then, as a share. Targets are `times` those for which a run
+/// takes some 200 passes.
+fn prophecies(side: u32, runs: u64, times: f64) -> Vec<(f64, f64)> {
     let of = |world: &World, seed: u64, target: f64| {
         let prophet = Prophet { target, foretold: Mutex::default() };
         let taken = f64::from(render(world, &settings(seed, until(target)), &prophet).stats.passes);
@@ -327,7 +328,7 @@ fn prophecies(side: u32, runs: u64) -> Vec<(f64, f64)> {
         (all / taken, (all - taken).abs() / (taken - f64::from(at)).max(1.0))
     };
     let worlds = scenes(side).map(|(_, world)| world);
-    let targets = [0.03, 0.04, 0.007, 0.012];
+    let targets = [0.03, 0.04, 0.007, 0.012].map(|target| times * target);
     let pairs = || worlds.iter().zip(targets);
     (0..runs).flat_map(|seed| pairs().map(move |(world, target)| of(world, seed, target))).collect()
 }
@@ -340,7 +341,7 @@ fn quality(found: &[(f64, f64)]) -> (f64, f64) {
 
 #[test]
 fn the_passes_that_are_left_are_foretold() {
-    let found = prophecies(24, 3);
+    let found = prophecies(24, 3, 1.5);
     let (near, left) = quality(&found);
     // Of pictures this small the error itself is known to a tenth only.
     assert!(near >= 0.4 && left < 0.6, "{near} {left}: {found:.2?}");
@@ -349,7 +350,7 @@ fn the_passes_that_are_left_are_foretold() {
 #[test]
 #[ignore = "takes minutes: 80 renders"]
 fn the_passes_that_are_left_are_foretold_at_length() {
-    let found = prophecies(48, 20);
+    let found = prophecies(48, 20, 1.0);
     let (near, left) = quality(&found);
     println!("{near} within 0.7 to 1.5, {left} of what is left");
     // Of eight streams, how far their pictures' errors differ is known to a quarter, and that decides about a seventh of the
