@@ -256,10 +256,10 @@ fn printed_intervals_of_photons_hold_the_truth_at_length() {
     for (worlds, method) in [(scenes(16), ppm()), (caustic_scenes(16), hybrid())] {
         let found = photon_coverage(worlds, method, 8192, 200, 64);
         println!("{method:?}: {found:?}");
-        let noise = share(&found, |photons| photons.noise);
-        assert!((0.92..=0.985).contains(&noise), "{method:?}: {found:?}");
-        // Bounds, and what is made of them, are on the safe side.
-        for of in [|p: &Photons| p.least, |p: &Photons| p.most, |p: &Photons| p.total] {
+        // Bounds, and what is made of them, are on the safe side; so are the intervals of noise for photons beside paths, made
+        // as wide as those for photons alone need them.
+        for of in [|p: &Photons| p.noise, |p: &Photons| p.least, |p: &Photons| p.most, |p: &Photons| p.total]
+        {
             assert!(share(&found, of) >= 0.92, "{method:?}: {found:?}");
         }
     }
