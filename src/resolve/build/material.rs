@@ -75,7 +75,7 @@ impl<'a> Resolver<'a> {
                 depth: fields.number("depth")?.value,
             },
             "emissive" => {
-                let (brightness, map) = glow_of(fields)?;
+                let Glow { brightness, map } = glow_of(fields)?;
                 MaterialKind::Emissive { brightness, map, color: fields.color("color")?.value }
             }
             "whitted" => MaterialKind::Whitted {
@@ -156,16 +156,22 @@ fn metal_color(fields: &Fields) -> Option<MetalColor> {
 }
 
 /// How bright what shines is, and the picture of that, if there is one.
-fn glow_of(fields: &Fields) -> Option<(Spanned<Brightness>, Option<Spanned<Handle<Texture>>>)> {
+struct Glow {
+    brightness: Spanned<Brightness>,
+    map: Option<Spanned<Handle<Texture>>>,
+}
+
+fn glow_of(fields: &Fields) -> Option<Glow> {
     let white = |span| Spanned::new(Brightness::Radiance(Rgb::WHITE), span);
-    if fields.has("power") {
-        return Some((fields.number("power")?.map(Brightness::Power), None));
-    }
-    if !fields.has("radiance") {
-        return Some((white(fields.head), None));
-    }
-    Some(match fields.input("radiance")? {
-        Input::Constant(radiance) => (radiance.map(Brightness::Radiance), None),
-        Input::Texture(map) => (white(map.span), Some(map)),
-    })
+    let (brightness, map) = if fields.has("power") {
+        (fields.number("power")?.map(Brightness::Power), None)
+    } else if fields.has("radiance") {
+        match fields.input("radiance")? {
+            Input::Constant(radiance) => (radiance.map(Brightness::Radiance), None),
+            Input::Texture(map) => (white(map.span), Some(map)),
+        }
+    } else {
+        (white(fields.head), None)
+    };
+    Some(Glow { brightness, map })
 }
