@@ -87,6 +87,17 @@ fn mistakes_of_meaning_are_reported_so() {
     assert!(differences.is_empty(), "{differences}");
 }
 
+/// Scenes with many mistakes, all of which are told in one run; and one with none, though it looks like it.
+#[test]
+fn many_mistakes_are_reported_together() {
+    let mut differences = String::new();
+    for path in scenes("tests/diagnostics/many") {
+        let report = report("resolve", &path);
+        compare(&path.with_extension("txt"), &report.render_human(&Style::default()), &mut differences);
+    }
+    assert!(differences.is_empty(), "{differences}");
+}
+
 /// Each scene has one mistake, which gives one report, whose code names the scene: `CODE.snell`, `CODE-CASE.snell`.
 #[test]
 fn one_mistake_gives_one_report() {

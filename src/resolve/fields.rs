@@ -35,6 +35,7 @@ impl<'a> Resolver<'a> {
         env: &Env<'a>,
     ) -> Fields<'a> {
         let mut fields = Fields { poisoned: body.poisoned, ..Fields::empty(block, head) };
+        let mut unread = Unread { has_strays: body.poisoned, names: Vec::new() };
         // A definition among fields is misplaced; what uses it is not wrong once more.
         let scope = if block.holds_items() { Rc::clone(env) } else { self.scope_of(body, env) };
         let mut names: Vec<Option<&Name>> = vec![None; block.field_count()];
@@ -43,6 +44,7 @@ impl<'a> Resolver<'a> {
                 Entry::Field(field) => {
                     let Some((index, declared)) = self.declared(block, &field.name) else {
                         fields.poisoned = true;
+                        unread.names.push(&field.name);
                         self.misspelt(block, field, &names, env);
                         continue;
                     };
@@ -59,7 +61,7 @@ impl<'a> Resolver<'a> {
                 }
                 Entry::Item(_) if block.holds_items() => {}
                 Entry::Item(item) => {
-                    fields.poisoned = true;
+                    (fields.poisoned, unread.has_strays) = (true, true);
                     // In a body that could not be read, what looks like an item may be the rest of a mistake.
                     if !body.poisoned {
                         self.misplaced_in(block, item);
@@ -67,8 +69,8 @@ impl<'a> Resolver<'a> {
                 }
             }
         }
-        self.report_missing(&mut fields);
-        self.report_choices(&mut fields);
+        self.report_missing(&mut fields, &unread);
+        self.report_choices(&mut fields, &unread);
         fields
     }
 
@@ -114,10 +116,8 @@ impl<'a> Resolver<'a> {
         self.poison(Error::OutOfRange { field: field.name.to_owned(), range, found, used, said: None, help })
     }
 
-    /// Reports fields that are missing, alone or beside others. In a block that could not be read whole, what seems
-    /// missing may be what could not be read.
-    fn report_missing(&mut self, fields: &mut Fields<'a>) {
-        let excused = fields.poisoned;
+    /// Reports fields that are missing, alone or beside others, unless they may be what could not be read.
+    fn report_missing(&mut self, fields: &mut Fields<'a>, unread: &Unread<'_>) {
         let is_missing = |field: &Field| !fields.has(field.name) && field.need == Need::Required;
         let mut missing: Vec<&'static Field> =
             fields.block.fields().filter(|field| is_missing(field)).collect();
@@ -126,7 +126,7 @@ impl<'a> Resolver<'a> {
         missing.extend(wanted.filter(|field| !fields.has(field.name)));
         for field in missing {
             fields.poisoned = true;
-            if !excused {
+            if !unread.may_be(fields.block, field.name) {
                 self.missing(fields, field);
             }
         }
@@ -139,13 +139,13 @@ impl<'a> Resolver<'a> {
     }
 
     /// Reports choices that were not made, made by half, or made twice.
-    fn report_choices(&mut self, fields: &mut Fields<'a>) {
+    fn report_choices(&mut self, fields: &mut Fields<'a>, unread: &Unread<'_>) {
         for choice in fields.block.choices {
             let taken: Vec<&[&str]> =
                 choice.ways.iter().copied().filter(|way| fields.first_of(way).is_some()).collect();
             match taken[..] {
-                [] if choice.required => self.needs_one(fields, choice),
-                [way] => self.report_rest(fields, way),
+                [] if choice.required => self.needs_one(fields, choice, unread),
+                [way] => self.report_rest(fields, way, unread),
                 [one, other, ..] => self.conflict(fields, one, other),
                 [] => {}
             }
@@ -153,17 +153,19 @@ impl<'a> Resolver<'a> {
     }
 
     /// Reports the first field that a way lacks.
-    fn report_rest(&mut self, fields: &mut Fields<'a>, way: &[&'static str]) {
+    fn report_rest(&mut self, fields: &mut Fields<'a>, way: &[&'static str], unread: &Unread<'_>) {
         let lacking = fields.mandatory(way).into_iter().find(|name| !fields.has(name));
         let Some(field) = lacking.and_then(|name| fields.block.field(name)) else { return };
-        if !std::mem::replace(&mut fields.poisoned, true) {
+        fields.poisoned = true;
+        if !unread.may_be(fields.block, field.name) {
             self.missing(fields, field);
         }
     }
 
     /// Reports that none of the ways of a choice was taken.
-    fn needs_one(&mut self, fields: &mut Fields<'a>, choice: &schema::Choice) {
-        if std::mem::replace(&mut fields.poisoned, true) {
+    fn needs_one(&mut self, fields: &mut Fields<'a>, choice: &schema::Choice, unread: &Unread<'_>) {
+        fields.poisoned = true;
+        if choice.ways.iter().copied().flatten().any(|field| unread.may_be(fields.block, field)) {
             return;
         }
         let ways: Vec<String> = choice.ways.iter().map(|way| fields.mandatory(way).join("` and `")).collect();
@@ -191,14 +193,40 @@ impl<'a> Resolver<'a> {
     }
 }
 
+/// What of a block could not be read: it may be what seems to be missing.
+struct Unread<'n> {
+    /// Whether something in it was no field at all.
+    has_strays: bool,
+    /// Names that are no fields of such a block.
+    names: Vec<&'n Name>,
+}
+
+impl Unread<'_> {
+    /// Whether some of it may be this field.
+    fn may_be(&self, block: &schema::Block, field: &str) -> bool {
+        let may_mean = |name: &&Name| match called_here(block, name) {
+            Some(ours) => ours == field,
+            None => {
+                let near = nearest(name, block.fields().map(|field| field.name));
+                near.is_empty() || near.contains(&field)
+            }
+        };
+        self.has_strays || self.names.iter().any(may_mean)
+    }
+}
+
+/// The field of a block that other programs call by this name.
+fn called_here(block: &schema::Block, name: &str) -> Option<&'static str> {
+    // What one block calls its centre is the position of another.
+    match schema::foreign_field(name).unwrap_or(name) {
+        "center" | "position" => ["center", "position"].into_iter().find(|ours| block.field(ours).is_some()),
+        ours => block.field(ours).map(|field| field.name),
+    }
+}
+
 /// Near names, then what other programs call it, then all there is.
 pub fn unknown_field_help(block: &schema::Block, name: &Name) -> String {
-    // What one block calls its centre is the position of another.
-    let ours = match schema::foreign_field(name).unwrap_or(name) {
-        "center" | "position" => ["center", "position"].into_iter().find(|ours| block.field(ours).is_some()),
-        ours => Some(ours).filter(|ours| block.field(ours).is_some()),
-    };
-    if let Some(ours) = ours {
+    if let Some(ours) = called_here(block, name) {
         return match (ours, name.as_str()) {
             ("transform", "rotation") => "write `transform: rotate_y(..)`".to_owned(),
             ("stop", word) if word != "stop" => "write `stop: samples(64)`".to_owned(),
