@@ -159,6 +159,7 @@ const PAGES: &[Page] = pages! {
         missing_argument: Error,
         missing_field: Error,
         missing_unit: Error,
+        mixed_units: Warning,
         no_csg: Error,
         no_value: Error,
         not_finite: Error,

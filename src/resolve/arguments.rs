@@ -3,7 +3,7 @@
 use super::error::Error;
 use super::{Resolver, Value};
 use crate::diag::did_you_mean;
-use crate::schema::{Arg, Function, Takes};
+use crate::schema::{Arg, Function, Takes, Type};
 use crate::source::{Span, Spanned};
 use crate::syntax::ast::Name;
 
@@ -30,6 +30,9 @@ impl<'a> Resolver<'a> {
         }
         // The last argument of a form may stand for several.
         let takes = form.iter().chain(std::iter::repeat(&form[form.len() - 1])).map(|arg| arg.takes);
+        let is_length = |takes: &Takes| matches!(takes, Takes::Of(Type::Length));
+        let lengths = args.iter().zip(takes.clone()).filter(|(_, takes)| is_length(takes));
+        self.doubt_written(lengths.map(|(arg, _)| arg));
         let typed = |(arg, takes): (Spanned<Value<'a>>, Takes)| match takes {
             Takes::Of(ty) => Spanned::new(self.coerce(arg.value, ty, arg.span), arg.span),
             _ => arg,

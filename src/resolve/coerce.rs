@@ -5,6 +5,7 @@ use super::dimension::{Dimension, Quantity};
 use super::error::Error;
 use super::fields::EMPTY;
 use super::meant::Wanted;
+use super::mixed::{Part, unit_of};
 use super::{Env, Resolver, Value, color};
 use crate::diag::did_you_mean;
 use crate::ir;
@@ -61,13 +62,25 @@ impl<'a> Resolver<'a> {
     }
 
     /// Whether an expression is a name that nothing defines.
-    fn is_unknown(&self, expr: &Expr, env: &Env<'a>) -> bool {
+    pub(super) fn is_unknown(&self, expr: &Expr, env: &Env<'a>) -> bool {
         matches!(&expr.kind, ExprKind::Name(name) if env.find(name).is_none())
     }
 
     /// Each part as `ty`, so that a report points at the part.
     pub(super) fn tuple_as(&mut self, parts: &'a [Expr], ty: Type, env: &Env<'a>) -> Value<'a> {
-        let values: Vec<Value> = parts.iter().map(|part| self.eval_as(part, ty, env)).collect();
+        let (mut values, mut lengths) = (Vec::with_capacity(parts.len()), Vec::new());
+        for part in parts {
+            self.bare = None;
+            let value = self.eval_as(part, ty, env);
+            if let Value::Number(quantity) = value {
+                // What it was before it became a length.
+                let is_bare = self.bare == Some(part.span);
+                let quantity = if is_bare { Quantity::plain(quantity.value) } else { quantity };
+                lengths.push(Part { quantity, span: part.span, is_written: true });
+            }
+            values.push(value);
+        }
+        self.doubt_bare(&lengths);
         if values.iter().any(Value::is_poison) { Value::Poison } else { Value::Tuple(values.into()) }
     }
 
@@ -190,7 +203,10 @@ impl<'a> Resolver<'a> {
             Type::Int if bare && quantity.value.fract() != 0.0 => {
                 self.wrong_type("a whole number", "a number with a fraction", span, "round it: `round(x)`")
             }
-            Type::Length if bare => Value::Number(Quantity::new(quantity.value * self.unit, dimension)),
+            Type::Length if bare => {
+                self.bare = Some(span);
+                Value::Number(Quantity::new(quantity.value * self.unit.metres, dimension))
+            }
             Type::FNumber | Type::Pixels if bare => Value::Number(Quantity::new(quantity.value, dimension)),
             _ if quantity.dimension == dimension => Value::Number(quantity),
             _ if bare => {
@@ -207,6 +223,7 @@ impl<'a> Resolver<'a> {
         if parts.len() != 3 {
             return self.refuse(&Value::Tuple(parts), whole, span);
         }
+        self.doubt_tuple(&parts, span);
         let values: Vec<Value> = parts.iter().map(|value| self.coerce(value.clone(), part, span)).collect();
         if values.iter().any(Value::is_poison) { Value::Poison } else { Value::Tuple(values.into()) }
     }
@@ -247,6 +264,9 @@ impl<'a> Resolver<'a> {
     pub(super) fn refuse(&mut self, value: &Value<'a>, ty: Type, used: Span) -> Value<'a> {
         let (wanted, text, found) = (ty.noun(), self.text(used), value.noun());
         let help = match (ty, value) {
+            (_, Value::Text(words)) if is_written_bare(words, ty) => {
+                format!("write it without quotes: `{words}`")
+            }
             (Type::Material, Value::Color(_)) if metals().contains(&text.as_str()) => {
                 format!(
                     "for the metal write `metal {{ kind: {text} }}`, for the colour `diffuse {{ color: {text} }}`"
@@ -298,6 +318,21 @@ impl<'a> Resolver<'a> {
         let text = self.text(used);
         self.poison(Error::WrongType { wanted, text, found, used, help })
     }
+}
+
+/// Whether a text would be a value of this type if it stood without its quotes.
+fn is_written_bare(words: &str, ty: Type) -> bool {
+    let is_number = Dimension::of(ty).is_some() && (words.parse::<f64>().is_ok() || unit_of(words).is_some());
+    let takes_color = matches!(
+        ty,
+        Type::Color
+            | Type::LightColor
+            | Type::Radiance
+            | Type::ColorInput
+            | Type::SkyInput
+            | Type::Absorption
+    );
+    is_number || takes_color && color::named(words).is_some() || is_word_of(ty, words)
 }
 
 /// The report of a word that is none of those that may stand there.

@@ -238,6 +238,7 @@ impl<'a> Resolver<'a> {
         match value {
             Value::Poison => None,
             Value::Tuple(parts) if matches!(parts.len(), 2 | 3) => {
+                self.doubt_tuple(&parts, span);
                 let lengths = parts.iter().map(|part| self.coerce(part.clone(), Type::Length, span));
                 let lengths: Vec<Value> = lengths.collect();
                 Some((Value::Tuple(lengths.into()).triple()?, parts.len()))

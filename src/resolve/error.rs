@@ -371,6 +371,17 @@ pub enum Error {
         #[label("black is left of the light")]
         used: Span,
     },
+    #[error("`{text}` has no unit, and what stands beside it has one")]
+    #[diagnostic(code(snell::resolve::mixed_units), severity(warning))]
+    MixedUnits {
+        text: String,
+        #[label("taken as metres")]
+        used: Span,
+        #[label("this has a unit")]
+        beside: Option<Span>,
+        #[help]
+        help: String,
+    },
     #[error("a light cannot be stretched unevenly")]
     #[diagnostic(
         code(snell::resolve::uneven_light),

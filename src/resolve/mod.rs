@@ -20,6 +20,7 @@ mod intent;
 mod item;
 mod lint;
 mod meant;
+mod mixed;
 mod node;
 mod noise;
 mod operator;
@@ -39,6 +40,7 @@ use budget::{Budget, Limit};
 use dimension::Quantity;
 pub use error::Error;
 use miette::Diagnostic;
+use mixed::BareUnit;
 use rustc_hash::{FxHashMap, FxHashSet};
 use scope::{Definition, Kind, Scope, State};
 use std::collections::BTreeSet;
@@ -121,10 +123,12 @@ struct Resolver<'a> {
     scene: ir::Scene,
     /// The top-level scope of each file that is the main one or imported.
     roots: Vec<Option<Env<'a>>>,
-    /// Metres in a bare length, for each file.
-    units: Vec<f64>,
-    /// Metres in a bare length, where we are.
-    unit: f64,
+    /// What a bare length is, for each file.
+    units: Vec<BareUnit>,
+    /// What a bare length is, where we are.
+    unit: BareUnit,
+    /// The bare number that became a length last.
+    bare: Option<Span>,
     /// The calls and turns of loops we are in, the outermost first.
     trail: Vec<Step<'a>>,
     /// The definitions that are being evaluated.
@@ -179,8 +183,9 @@ impl<'a> Resolver<'a> {
             problems,
             scene: ir::Scene::default(),
             roots: vec![None; program.files.len()],
-            units: vec![1.0; program.files.len()],
-            unit: 1.0,
+            units: vec![BareUnit::METRE; program.files.len()],
+            unit: BareUnit::METRE,
+            bare: None,
             trail: Vec::new(),
             running: Vec::new(),
             calls: Vec::new(),
@@ -433,9 +438,10 @@ impl<'a> Resolver<'a> {
     fn read_units_block(&mut self, file: usize, body: &'a ast::Block, span: Span) {
         let block = crate::schema::block("units").expect("declared in the registry");
         let fields = self.read(block, span, body, &Scope::new(None));
+        self.units[file].is_said = true;
         let Some(word) = fields.word("length") else { return };
         if let Some(length) = dimension::with_unit(1.0, word.value) {
-            self.units[file] = length.value;
+            self.units[file].metres = length.value;
         }
     }
 

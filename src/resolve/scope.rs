@@ -1,5 +1,6 @@
 //! Which names are visible where. Definitions are found before any is evaluated, so their order does not matter.
 
+use super::mixed::BareUnit;
 use super::value::Value;
 use crate::source::Span;
 use crate::syntax::ast::{Block, Entry, Expr, FileIndex, Function, Item, ItemKind, Name, Place, Program};
@@ -19,8 +20,8 @@ pub struct Definition<'a> {
     /// Where the name stands.
     pub span: Span,
     pub kind: Kind<'a>,
-    /// Metres in a bare length of its file.
-    pub unit: f64,
+    /// What a bare length of its file is.
+    pub unit: BareUnit,
     pub state: RefCell<State<'a>>,
     /// The id that objects placed under this name carry.
     pub name_id: Cell<Option<u32>>,
@@ -95,7 +96,7 @@ impl<'a> Scope<'a> {
 
     /// Defines a name whose value is known.
     pub fn give(&self, name: &'a str, span: Span, value: Value<'a>) {
-        self.insert(name, span, Kind::Given, 1.0, State::Done(value));
+        self.insert(name, span, Kind::Given, BareUnit::METRE, State::Done(value));
     }
 
     /// Gives a name of this scope another value. `false`: it is not defined yet, or someone holds on to its definition.
@@ -111,7 +112,7 @@ impl<'a> Scope<'a> {
     }
 
     /// Defines what the items of a file define, and those of the files it includes.
-    pub fn declare_file(&self, program: &'a Program, file: FileIndex, units: &[f64]) {
+    pub fn declare_file(&self, program: &'a Program, file: FileIndex, units: &[BareUnit]) {
         let unit = units[file.0 as usize];
         for item in &program.files[file.0 as usize].items {
             match &item.kind {
@@ -124,7 +125,7 @@ impl<'a> Scope<'a> {
     }
 
     /// Defines what the items of a block define.
-    pub fn declare_block(&self, block: &'a Block, unit: f64) {
+    pub fn declare_block(&self, block: &'a Block, unit: BareUnit) {
         for entry in &block.entries {
             if let Entry::Item(item) = entry {
                 self.declare_item(item, unit);
@@ -132,7 +133,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    fn declare_item(&self, item: &'a Item, unit: f64) {
+    fn declare_item(&self, item: &'a Item, unit: BareUnit) {
         let (name, kind) = match &item.kind {
             ItemKind::Let { name, value } => (name, Kind::Let(value)),
             ItemKind::Param { name, ty, value, range } => {
@@ -150,7 +151,7 @@ impl<'a> Scope<'a> {
     }
 
     /// The first definition of a name stays; the second is reported elsewhere.
-    fn insert(&self, name: &'a str, span: Span, kind: Kind<'a>, unit: f64, state: State<'a>) {
+    fn insert(&self, name: &'a str, span: Span, kind: Kind<'a>, unit: BareUnit, state: State<'a>) {
         self.definitions.borrow_mut().entry(name).or_insert_with(|| {
             Rc::new(Definition {
                 name,

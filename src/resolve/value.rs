@@ -3,6 +3,7 @@
 use super::builtin::Builtin;
 use super::dimension::{Dimension, Quantity};
 use super::fields::Fields;
+use super::mixed::BareUnit;
 use super::node::Node;
 use super::scope::Scope;
 use crate::ir::{self, Handle, TransformStep};
@@ -53,8 +54,8 @@ pub enum Value<'a> {
 pub struct Function<'a> {
     pub definition: &'a ast::Function,
     pub scope: Rc<Scope<'a>>,
-    /// Metres in a bare length of its file.
-    pub unit: f64,
+    /// What a bare length of its file is.
+    pub unit: BareUnit,
 }
 
 impl Value<'_> {
