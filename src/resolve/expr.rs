@@ -101,6 +101,11 @@ impl<'a> Resolver<'a> {
 
     /// `mat.gold`, `p.x`.
     fn access(&mut self, base: &'a Expr, field: &'a Name, env: &Env<'a>) -> Value<'a> {
+        if let ExprKind::Name(name) = &base.kind
+            && self.is_unknown(base, env)
+        {
+            return self.part_of_unknown(name, base.span, env);
+        }
         match self.eval(base, env) {
             Value::Poison => Value::Poison,
             Value::Module(scope) => self.member(&scope, base.span, field),

@@ -4,7 +4,7 @@ use super::dimension::{Dimension, Quantity, with_unit};
 use super::error::Error;
 use super::scope::{Definition, Kind, State};
 use super::{Env, Resolver, Value, builtin};
-use crate::diag::{did_you_mean_one_of, is_slip_of, nearest_of_kind};
+use crate::diag::{did_you_mean, did_you_mean_one_of, is_slip_of, nearest_of_kind};
 use crate::schema::{self, Type};
 use crate::source::Span;
 use crate::syntax::{ast::Name, spelled_out};
@@ -48,6 +48,24 @@ impl<'a> Resolver<'a> {
         self.poison(Error::UnknownMaterial { name: name.to_owned(), used, help })
     }
 
+    /// What stands before a dot, and is nothing that the scene defines.
+    pub(super) fn part_of_unknown(&mut self, name: &str, used: Span, env: &Env<'a>) -> Value<'a> {
+        let is_import = |definition: &&Rc<Definition<'a>>| matches!(definition.kind, Kind::Import(_));
+        let visible = env.visible();
+        let imports = visible.iter().filter(is_import).map(|definition| definition.name);
+        let is_of_the_language = builtin::find(name).is_some() || super::color::named(name).is_some();
+        if is_of_the_language || schema::block(name).is_some() || did_you_mean(name, imports).is_some() {
+            return self.name(name, used, Wanted::Anything, env);
+        }
+        let own = visible.iter().map(|definition| definition.name);
+        let help = did_you_mean(name, own)
+            .unwrap_or_else(|| format!("import the file that holds it: `import \"{name}.snell\" as {name}`"));
+        if self.is_lost(name, used, Some(&help)) {
+            return Value::Poison;
+        }
+        self.poison(Error::UnknownName { name: name.to_owned(), used, help: Some(help) })
+    }
+
     /// Whether the definition of a name was likely lost: to a line with a mistake of syntax, or with a file that is not
     /// there, unless `help` proposes a name that is one slip away.
     fn is_lost(&self, name: &str, used: Span, help: Option<&str>) -> bool {
@@ -62,6 +80,12 @@ impl<'a> Resolver<'a> {
     fn unknown_name_help(&mut self, name: &str, wanted: Wanted, env: &Env<'a>) -> Option<String> {
         if let Some(block) = schema::block(name) {
             return Some(format!("`{name}` needs its braces, as in `{}`", block.example));
+        }
+        if matches!(
+            name.to_ascii_lowercase().as_str(),
+            "vec" | "vec3" | "vector" | "vector3" | "float3" | "point3"
+        ) {
+            return Some("points and vectors stand in parentheses alone: `(0m, 1m, 0m)`".to_owned());
         }
         let visible = env.visible();
         if let Some(help) = self.imported_name_help(name, &visible) {

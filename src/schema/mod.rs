@@ -200,7 +200,7 @@ pub fn foreign_field(name: &str) -> Option<&'static str> {
         "filename" | "path" | "src" | "obj_file" => "file",
         "intensity" | "brightness" | "strength" | "watts" => "power",
         "emission" | "emit" | "L" => "radiance",
-        "texture" | "bsdf" | "shader" => "material",
+        "texture" | "pigment" | "finish" | "bsdf" | "shader" => "material",
         "resolution" | "width" | "height" => "size",
         "samples" | "spp" => "stop",
         "max_depth" | "bounces" | "max_bounces" => "depth",

@@ -254,7 +254,9 @@ impl Lower<'_> {
         *kind = ItemKind::Poison;
         sequence.poisoned = true;
         sequence.last = Last::Mistake;
-        let hint = foreign_definition(&word).or_else(|| did_you_mean(&word, ITEM_WORDS));
+        let hint = name_given(&word, next.as_str())
+            .or_else(|| foreign_definition(&word))
+            .or_else(|| did_you_mean(&word, ITEM_WORDS));
         let example =
             "an item is a definition, as in `let a = 1m`, or a block with its name, as in `sphere { .. }`";
         let is_value = matches!(next.as_rule(), Rule::expr | Rule::object | Rule::choice);
@@ -454,6 +456,15 @@ impl Sequence {
 }
 
 /// How a definition that other languages begin with `word` is written.
+/// What to say of a word before `name = value`, as in `material red = diffuse { .. }`.
+fn name_given(word: &str, next: &str) -> Option<String> {
+    let name = &next[..next.bytes().take_while(|byte| byte.is_ascii_alphanumeric() || *byte == b'_').count()];
+    let sign = next[name.len()..].trim_start_matches(' ').strip_prefix('=')?;
+    let is_slip = did_you_mean(word, ["let", "param"]).is_some();
+    let is_name = !name.is_empty() && !sign.starts_with('=') && !is_slip;
+    is_name.then(|| format!("names are given by `let`: write `let {name} = ..`"))
+}
+
 fn foreign_definition(word: &str) -> Option<String> {
     let hint = match word {
         "var" | "const" | "val" | "auto" | "set" | "define" | "int" | "float" => "write `let a = 1m`",

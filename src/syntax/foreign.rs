@@ -30,10 +30,7 @@ fn language(word: &str, line: &str) -> Option<(&'static str, &'static str)> {
         "LookAt" | "WorldBegin" | "AttributeBegin" | "MakeNamedMaterial" => PBRT,
         "Camera" | "Film" | "Sampler" | "Integrator" | "Shape" | "Material" | "PixelFilter" if quoted => PBRT,
         "Transform" | "Translate" | "Rotate" | "Scale" | "ConcatTransform" => PBRT,
-        "<?xml" | "<scene" | "<!--" => (
-            "XML, as Mitsuba reads it,",
-            "begin with `snell 1`; a shape is `sphere { radius: 5cm, material: glass { ior: 1.5 } }`",
-        ),
+        "<?xml" | "<scene" | "<!--" => XML,
         "mtllib" | "v" | "vn" | "usemtl" => ("a mesh", "name it in a scene: `mesh { file: \"model.obj\" }`"),
         _ => return None,
     })
@@ -61,10 +58,66 @@ pub(super) fn directive_hint(line: &str) -> String {
 }
 
 /// What those hear who bring a scene for pbrt.
-pub(super) const PBRT: (&str, &str) = (
+const PBRT: (&str, &str) = (
     "pbrt's language",
     "begin with `snell 1`; a shape is `sphere { radius: 5cm }`, what moves it is its `transform`",
 );
+
+/// What those hear who bring a scene for Mitsuba.
+const XML: (&str, &str) = (
+    "XML, as Mitsuba reads it",
+    "begin with `snell 1`; a shape is `sphere { radius: 5cm, material: glass { ior: 1.5 } }`",
+);
+
+/// How a line of pbrt is said here.
+pub(super) fn command_hint(line: &str) -> String {
+    let mut words = line.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    let (command, kind) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
+    let hint = match command {
+        "LookAt" | "Camera" => {
+            "write `camera { position: (0m, 1.6m, 4m), look_at: (0m, 1m, 0m), fov: 45deg }`"
+        }
+        "Film" => "the size of the picture belongs to the camera: `film: { size: 1024 x 768 }`",
+        "Sampler" | "Integrator" => "write `render { stop: samples(64) }`",
+        "Shape" if kind == "sphere" => {
+            "write `sphere { center: (0m, 1m, 0m), radius: 30cm, material: diffuse { color: 0.5 } }`"
+        }
+        "Shape" => "write `mesh { file: \"model.obj\", material: diffuse { color: 0.5 } }`",
+        "Material" | "MakeNamedMaterial" | "NamedMaterial" | "Texture" => {
+            "give the material a name, `let clay = diffuse { color: #c4553a }`, and each object its own: `material: clay`"
+        }
+        "LightSource" | "AreaLightSource" => "write `light point { position: (0m, 3m, 0m), power: 60W }`",
+        "Transform" | "ConcatTransform" | "Translate" | "Rotate" | "Scale" => {
+            "an object has its own `transform`: `transform: rotate_y(30deg) then translate(1m, 0m, 0m)`"
+        }
+        _ => "remove this line",
+    };
+    hint.to_owned()
+}
+
+/// How a line of XML is said here.
+pub(super) fn tag_hint(line: &str) -> &'static str {
+    let tag = line.trim_start_matches(['<', '/']).split(|c: char| !c.is_ascii_alphanumeric()).next();
+    match tag.unwrap_or_default() {
+        "bsdf" | "texture" => {
+            "write `let clay = diffuse { color: #c4553a }`, and in an object `material: clay`"
+        }
+        "shape" => "write `sphere { center: (0m, 1m, 0m), radius: 30cm, material: diffuse { color: 0.5 } }`",
+        "emitter" => "write `light point { position: (0m, 3m, 0m), power: 60W }`",
+        "sensor" | "film" | "sampler" => {
+            "write `camera { position: (0m, 1.6m, 4m), look_at: (0m, 1m, 0m), fov: 45deg }`"
+        }
+        _ => "blocks stand between braces, and fields have names: `sphere { radius: 5cm }`",
+    }
+}
+
+/// Whether a text that cannot be read is a tag.
+pub(super) fn is_tag(written: &str) -> bool {
+    let inside = written.strip_prefix('<').map(|rest| rest.trim_start_matches(['/', '!', '?']));
+    inside.is_some_and(|inside| {
+        inside.starts_with(|c: char| c.is_ascii_alphabetic()) || inside.starts_with("--")
+    })
+}
 
 /// The unit that a word spells out.
 pub fn spelled_out(unit: &str) -> Option<&'static str> {

@@ -1,5 +1,6 @@
 //! Text → ast: what was written, includes read, every syntax error noted.
 
+mod angles;
 pub mod ast;
 mod balance;
 mod block;

@@ -1,5 +1,6 @@
 //! The text as the grammar reads it: comments blanked, brackets and quotes in pairs.
 
+use super::angles::mend_vectors;
 use super::balance::{Repair, balance, too_deep};
 use super::error::SyntaxError;
 use super::lower::MAX_DEPTH;
@@ -23,11 +24,12 @@ pub(super) struct Repaired {
 
 /// Makes a text readable; `base` is its offset among the sources. `Err` when it is nested too deeply to be read at all.
 pub(super) fn repair(text: &str, base: u32) -> Result<Repaired, SyntaxError> {
-    let scan = scan(text);
+    let mut scan = scan(text);
     let span = |start: usize, end: usize| Span::new(base + start as u32, base + end as u32);
     if let Some(offset) = too_deep(&scan.tokens, MAX_DEPTH) {
         return Err(SyntaxError::TooDeep { limit: MAX_DEPTH, at: span(offset, offset + 1) });
     }
+    let vectors = mend_vectors(&mut scan, text, span);
     let repairs = balance(&scan.text, &scan.tokens);
     let mut errors: Vec<SyntaxError> = scan.quotes.iter().map(|quote| quote.report(text, span)).collect();
     errors.extend(scan.stray_ends.iter().map(|&at| SyntaxError::StrayCommentEnd { at: span(at, at + 2) }));
@@ -40,6 +42,7 @@ pub(super) fn repair(text: &str, base: u32) -> Result<Repaired, SyntaxError> {
         None => errors.extend(repairs.iter().map(|repair| repair.report(text, span))),
     }
     let slips = slips(&scan.text, &scan.tokens);
+    errors.extend(vectors);
     errors.extend(slips.iter().map(|slip| slip.report(text, span)));
     let line_around = |offset: usize| {
         let start = text[..offset].rfind('\n').map_or(0, |end| end + 1);

@@ -14,13 +14,23 @@ impl Lower<'_> {
             Rule::directive => {
                 self.foreign("POV-Ray's language", foreign::directive_hint(pair.as_str()), pair)
             }
-            Rule::command => self.foreign("pbrt's language", foreign::PBRT.1.to_owned(), pair),
+            Rule::command => self.foreign("pbrt's language", foreign::command_hint(pair.as_str()), pair),
+            _ if foreign::is_tag(pair.as_str()) => {
+                let hint = foreign::tag_hint(pair.as_str()).to_owned();
+                self.foreign("XML, as Mitsuba reads it", hint, pair);
+            }
             _ => self.unreadable(pair),
         }
     }
 
     fn foreign(&mut self, language: &'static str, hint: String, pair: &Pair<'_, Rule>) {
         let at = self.text.first_line_of(pair);
+        // What is said the same way is told once.
+        let is_told =
+            |error: &SyntaxError| matches!(error, SyntaxError::Foreign { hint: told, .. } if *told == hint);
+        if self.errors.iter().any(is_told) {
+            return;
+        }
         self.note(SyntaxError::Foreign { language, hint, at });
     }
 

@@ -100,6 +100,11 @@ impl<'a> Resolver<'a> {
             if is_field && schema::block(second).is_some() {
                 return Some(format!("write `{}: {} {{ .. }}`", object.kind.value, second.value));
             }
+            if matches!(object.kind.as_str(), "shape" | "object" | "geometry" | "primitive" | "new")
+                && schema::block(second).is_some()
+            {
+                return Some(format!("write `{} {{ .. }}`", second.value));
+            }
             if !nearest(&object.kind, ["camera"]).is_empty() {
                 return Some(format!("did you mean `camera {}`?", second.value));
             }
@@ -179,6 +184,17 @@ fn foreign_block_help(kind: &str) -> Option<String> {
         "circle" | "disc" => "disk",
         "bitmap" | "picture" => "image",
         "sky" | "skybox" | "background" | "envmap" => "environment",
+        "texture" | "pigment" | "finish" => {
+            return Some(
+                "a surface is a `material` of its object: `material: diffuse { color: #c4553a }`".to_owned(),
+            );
+        }
+        "object" => {
+            return Some(
+                "write the object itself, as in `sphere { .. }`; with a name it is `place goblet { .. }`"
+                    .to_owned(),
+            );
+        }
         word if word.starts_with("while ") => {
             return Some("a loop runs over a range: `for i in 0..3 { .. }`".to_owned());
         }
