@@ -174,6 +174,9 @@ pub fn run(args: &ConvertArgs) -> Exit {
         return convert_mesh::run(args, &bytes, &name);
     }
     let text = decoded(&bytes);
+    if text.contains('\0') {
+        return fail(format_args!("`{}` is no text: nothing in it can be converted", args.input.display()));
+    }
     if is_snell(&text) {
         let shown = args.input.display();
         return fail(format_args!(

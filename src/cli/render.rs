@@ -67,7 +67,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "N", requires = "pixel", value_parser = clap::value_parser!(u32).range(..u32::MAX as i64))]
     pub(super) sample: Option<u32>,
     /// How many threads [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     threads: Option<u16>,
     /// The seed of all random numbers
     #[arg(long, value_name = "N", value_parser = args::seed, allow_hyphen_values = true)]

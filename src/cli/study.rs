@@ -62,7 +62,7 @@ pub struct StudyArgs {
     #[arg(long, value_name = "WxH", value_parser = args::size)]
     size: Option<(u32, u32)>,
     /// How many threads [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     threads: Option<u16>,
     /// What is printed at the end
     #[arg(long, value_name = "FORM", default_value = "human")]
