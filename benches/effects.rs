@@ -12,6 +12,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+const PAGE: &str = "docs/effects.md";
 const HEAD: &str = "# What each effect costs
 
 Snell simulates only the effects that a scene calls for. This page says, for each shipped scene, which these are, where they
@@ -42,8 +43,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         write_scene(&plan, &mut page)?;
     }
     write_counts(&mut page)?;
-    std::fs::write("docs/effects.md", page)?;
+    page.push_str(&lines()?);
+    std::fs::write(PAGE, page)?;
     Ok(())
+}
+
+/// The section about lines, which `cargo bench --bench lines` writes.
+fn lines() -> std::io::Result<String> {
+    let old = std::fs::read_to_string(PAGE)?;
+    let at = old.find("\n## What each line costs\n");
+    Ok(at.map_or(String::new(), |at| old[at..].to_owned()))
 }
 
 /// Features that no object of a scene uses.

@@ -34,6 +34,17 @@ pub struct Checked {
     is_sound: bool,
 }
 
+impl Checked {
+    /// The scene without the objects and lights that were put into it at some places. What is left makes as much sense as
+    /// before.
+    pub fn without(&self, is_left_out: impl Fn(Span) -> bool) -> Self {
+        let mut scene = self.scene.clone();
+        scene.objects.retain(|object| !is_left_out(object.span));
+        scene.lights.retain(|light| !is_left_out(light.span));
+        Self { scene, is_sound: self.is_sound }
+    }
+}
+
 impl Deref for Checked {
     type Target = Scene;
 

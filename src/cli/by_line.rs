@@ -1,6 +1,9 @@
 //! What each line of a scene costs: the time of the paths that meet its object, their rays, the noise of what is seen of it.
+//!
+//! For the dearest lines it also says how much less time the scene takes without them, which is measured: what an object
+//! costs is no measure of that, as the rays that it stops go on to what is behind it, or out of a room into the dark.
 
-use super::pilot::Books;
+use super::pilot::{Books, Price};
 use super::session::Session;
 use crate::ir::{Object, Scene};
 use crate::render::ledger::Account;
@@ -18,6 +21,8 @@ struct Line {
     seconds: f64,
     rays: u64,
     noise: f64,
+    /// The share of the whole time that the scene takes less without it, where that was measured.
+    saving: Option<Price>,
 }
 
 /// All costs by line, the dearest first.
@@ -27,7 +32,7 @@ pub struct ByLine {
     /// What no line is to blame for.
     camera: f64,
     photons: f64,
-    interrupted: f64,
+    film: f64,
     /// Seconds of the whole.
     total: f64,
     noise: f64,
@@ -35,6 +40,8 @@ pub struct ByLine {
 
 /// The longest piece of a line that is shown.
 const LONGEST: usize = 50;
+/// For so many lines it is measured what the scene takes without them.
+const MEASURED: usize = 3;
 
 impl ByLine {
     /// Shares out what was booked. `spans` leads from objects to where they were written.
@@ -42,7 +49,7 @@ impl ByLine {
         let ledger = &books.ledger;
         // Photons are as many as for the whole picture, camera paths are fewer.
         let photons = ledger.photons.nanos as f64 * 1e-9;
-        let total = photons + (books.seconds - photons) * books.larger;
+        let total = photons + (books.seconds - ledger.clock_seconds() - photons) * books.larger;
         let seconds_of = |account| ledger.seconds(account) * books.larger;
         let by_span: HashMap<Span, &Object> = scene.objects.iter().map(|o| (o.span, o)).collect();
         let mut objects = Lines::new(session);
@@ -60,17 +67,28 @@ impl ByLine {
             objects: objects.dearest_first(),
             materials: materials.dearest_first(),
             camera: seconds_of(&ledger.camera),
-            interrupted: seconds_of(&ledger.interrupted),
             photons,
+            film: ledger.film.nanos as f64 * 1e-9 * books.larger,
             total,
             noise,
         }
     }
 
+    /// The places of the dearest lines, for which it is worth while to measure what the scene takes without them.
+    pub fn dearest(&self) -> Vec<String> {
+        self.objects.iter().take(MEASURED).map(|line| line.place.clone()).collect()
+    }
+
+    /// Notes what was measured for some of them.
+    pub fn note(&mut self, place: &str, saving: Price) {
+        let line = self.objects.iter_mut().find(|line| line.place == place);
+        line.into_iter().for_each(|line| line.saving = Some(saving));
+    }
+
     /// The share of the whole time that has found its account.
     fn attributed(&self) -> f64 {
         let objects: f64 = self.objects.iter().map(|line| line.seconds).sum();
-        (objects + self.camera + self.photons + self.interrupted) / self.total
+        (objects + self.camera + self.photons + self.film) / self.total
     }
 
     /// For people: labels on the scene's text.
@@ -81,11 +99,14 @@ impl ByLine {
         let share = |seconds: f64| 100.0 * seconds / self.total;
         let _ = writeln!(
             out,
-            "\n  {:>5.1} %  to the camera, {:.1} % to photons, {:.1} % to other programs; {:.1} % found their account",
+            "\n  {:>5.1} %  to the camera, {:.1} % to the film, {:.1} % to photons; {:.1} % found their account",
             share(self.camera),
+            share(self.film),
             share(self.photons),
-            share(self.interrupted),
             100.0 * self.attributed()
+        );
+        out.push_str(
+            "  `time` is spent at the object; `without` is what the scene takes less, or more, when the line is deleted\n",
         );
         out
     }
@@ -96,14 +117,20 @@ impl ByLine {
         let shown =
             || lines.iter().filter(|l| l.seconds > LEAST * self.total || l.noise > LEAST * self.noise);
         let width = shown().map(|line| line.place.chars().count()).max().unwrap_or(0);
-        let _ = writeln!(out, "\n     time    noise   rays  {what}");
-        for Line { place, text, seconds, rays, noise } in shown() {
+        let is_measured = lines.iter().any(|line| line.saving.is_some());
+        let column = |text: String| if is_measured { format!("{text:<16}") } else { String::new() };
+        let _ = writeln!(out, "\n     time    noise     rays  {}{what}", column("without".to_owned()));
+        for Line { place, text, seconds, rays, noise, saving } in shown() {
             let time = 100.0 * seconds / self.total;
             let noise = 100.0 * noise / self.noise.max(f64::MIN_POSITIVE);
+            let without = saving.map_or(String::new(), |Price { share, spread }| {
+                format!("{:+.1} ± {:.1} %", -100.0 * share, 100.0 * spread)
+            });
             let _ = writeln!(
                 out,
-                "  {time:>5.1} %  {noise:>5.1} %  {:>5}  {place:<width$} │ {text}",
-                thousands(*rays)
+                "  {time:>5.1} %  {noise:>5.1} %  {:>7}  {}{place:<width$} │ {text}",
+                thousands(*rays),
+                column(without)
             );
         }
     }
@@ -118,6 +145,7 @@ impl ByLine {
                     "time": line.seconds / self.total,
                     "noise": line.noise / self.noise.max(f64::MIN_POSITIVE),
                     "rays": line.rays,
+                    "without": line.saving.map(|saving| json!({ "share": -saving.share, "spread": saving.spread })),
                 })
             };
             lines.iter().map(line).collect::<Vec<_>>()
@@ -127,7 +155,7 @@ impl ByLine {
             "materials": lines(&self.materials),
             "camera": self.camera / self.total,
             "photons": self.photons / self.total,
-            "interrupted": self.interrupted / self.total,
+            "film": self.film / self.total,
             "attributed": self.attributed(),
             "seconds": self.total,
         })
@@ -151,7 +179,7 @@ impl<'a> Lines<'a> {
         let index = *self.by_place.entry(place.clone()).or_insert_with(|| {
             let text = self.session.sources.text(span).lines().next().unwrap_or_default();
             let text = text.chars().take(LONGEST).collect();
-            self.lines.push(Line { place, text, seconds: 0.0, rays: 0, noise: 0.0 });
+            self.lines.push(Line { place, text, seconds: 0.0, rays: 0, noise: 0.0, saving: None });
             self.lines.len() - 1
         });
         let line = &mut self.lines[index];

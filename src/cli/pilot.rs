@@ -1,6 +1,7 @@
 //! A look ahead: a few passes over a small picture tell what the whole one takes, and what each effect adds to it.
 
 use super::session::Session;
+use crate::diag::Problems;
 use crate::ir::Camera;
 use crate::load::Loaded;
 use crate::lower::Lowered;
@@ -16,6 +17,8 @@ const SIDE: u32 = 160;
 const ROUNDS: u64 = 4;
 /// How many times as many passes are booked as timed.
 const BOOKED: u32 = 6;
+/// What a render takes at least that is compared with one without something, in seconds of processor time.
+const COMPARED_SECONDS: f64 = 0.4;
 /// Passes of a small picture that takes less time than this are made more of, in seconds of processor time.
 const LEAST_SECONDS: f64 = 0.15;
 
@@ -46,7 +49,7 @@ pub struct Price {
     pub spread: f64,
 }
 
-/// What was booked, and the seconds that it all took.
+/// What was booked, and the seconds of processor time that it all took.
 pub struct Books {
     pub ledger: Ledger,
     pub seconds: f64,
@@ -88,7 +91,11 @@ pub struct Pilot<'a> {
     lowered: Lowered,
     build_seconds: f64,
     world_bytes: Option<u64>,
+    /// Processor seconds of a pass of the small picture.
+    pass_seconds: f64,
     passes: u32,
+    /// A single thread. It lives as long as this: one that ends takes its time with it, which the clock then misses.
+    alone: Option<rayon::ThreadPool>,
 }
 
 impl<'a> Pilot<'a> {
@@ -104,8 +111,18 @@ impl<'a> Pilot<'a> {
             crate::lower::lower(loaded, plan, &small(camera), &session.files, &mut session.problems)?;
         let build_seconds = clock.seconds().cpu;
         let world_bytes = resident_bytes();
-        let mut pilot = Self { plan, camera, lowered, build_seconds, world_bytes, passes: 1 };
-        pilot.passes = (LEAST_SECONDS / pilot.seconds(&pilot.lowered, 0)).ceil().clamp(1.0, 64.0) as u32;
+        let mut pilot = Self {
+            plan,
+            camera,
+            lowered,
+            build_seconds,
+            world_bytes,
+            pass_seconds: 1.0,
+            passes: 1,
+            alone: None,
+        };
+        pilot.pass_seconds = pilot.seconds(&pilot.lowered, 0);
+        pilot.passes = (LEAST_SECONDS / pilot.pass_seconds).ceil().clamp(1.0, 64.0) as u32;
         Some(pilot)
     }
 
@@ -141,6 +158,11 @@ impl<'a> Pilot<'a> {
         area(self.camera) / area(&small(self.camera))
     }
 
+    /// The camera of the whole picture.
+    pub fn camera(&self) -> &Camera {
+        self.camera
+    }
+
     /// Where each object was written.
     pub fn spans(&self) -> &[Span] {
         &self.lowered.sources
@@ -148,18 +170,53 @@ impl<'a> Pilot<'a> {
 
     /// What each object costs, booked on one thread. `None` when no thread can be started.
     pub fn books(&mut self) -> Option<Books> {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().ok()?;
+        self.alone = Some(rayon::ThreadPoolBuilder::new().num_threads(1).build().ok()?);
         self.lowered.world.is_watched = true;
         let larger = self.larger();
         let (lowered, plan, count) = (&self.lowered, self.plan, self.passes * BOOKED);
-        let books = pool.install(|| {
+        let books = self.alone.as_ref()?.install(|| {
             ledger::open();
-            let stats = passes(lowered, plan, count, 2).stats;
-            let seconds = stats.prepare_seconds + stats.camera_seconds;
+            let clock = Clock::start();
+            passes(lowered, plan, count, 2);
+            let seconds = clock.seconds().cpu;
             Some(Books { ledger: ledger::close()?, seconds, larger })
         });
         self.lowered.world.is_watched = false;
         books
+    }
+
+    /// The share of the time that the whole picture takes less, for each of these scenes that are to be like this one but for
+    /// something. All are rendered in turns; the quickest of each counts, as what else the machine does only adds to a time.
+    pub fn savings(&self, others: &[(Lowered, Plan)]) -> Vec<Price> {
+        let count = others.len() + 1;
+        let mut times: Vec<Vec<f64>> = vec![Vec::new(); count];
+        for _ in 0..ROUNDS {
+            times[0].push(self.whole_seconds(&self.lowered, self.plan));
+            for (times, (lowered, plan)) in times[1..].iter_mut().zip(others) {
+                times.push(self.whole_seconds(lowered, plan));
+            }
+        }
+        times.iter_mut().for_each(|times| times.sort_by(f64::total_cmp));
+        let saving = |other: &Vec<f64>, rank: usize| 1.0 - other[rank] / times[0][rank];
+        let price =
+            |other| Price { share: saving(other, 0), spread: (saving(other, 1) - saving(other, 0)).abs() };
+        times[1..].iter().map(price).collect()
+    }
+
+    /// Another scene as a small picture, for [`Pilot::savings`].
+    pub fn lowered(&self, scene: &Loaded<'_>, plan: &Plan, session: &Session) -> Option<Lowered> {
+        crate::lower::lower(scene, plan, &small(self.camera), &session.files, &mut Problems::default())
+    }
+
+    /// Processor seconds that some passes over the whole picture take, by a small one.
+    fn whole_seconds(&self, lowered: &Lowered, plan: &Plan) -> f64 {
+        let clock = Clock::start();
+        let count = (COMPARED_SECONDS / self.pass_seconds).ceil().clamp(1.0, 256.0) as u32;
+        let run = || passes(lowered, plan, count, 3).stats;
+        let stats = self.alone.as_ref().map_or_else(run, |pool| pool.install(run));
+        let cpu = clock.seconds().cpu;
+        let wall = (stats.prepare_seconds + stats.camera_seconds).max(f64::MIN_POSITIVE);
+        cpu * (stats.prepare_seconds + stats.camera_seconds * self.larger()) / wall
     }
 
     /// The price of each effect that can be switched: off where the scene calls for it, on where it does not.
@@ -196,12 +253,16 @@ impl<'a> Pilot<'a> {
             let (own, other) = (self.seconds(&self.lowered, seed), self.seconds(switched, seed));
             if is_on { (own - other) / own } else { (other - own) / own }
         };
-        let mut shares: Vec<f64> = (0..ROUNDS).map(share).collect();
-        shares.sort_by(f64::total_cmp);
-        let middle = shares.len() / 2;
-        let spread = (shares[shares.len() - 1] - shares[0]) / 2.0;
-        Price { share: (shares[middle - 1] + shares[middle]) / 2.0, spread }
+        median((0..ROUNDS).map(share).collect())
     }
+}
+
+/// The middle of an even number of shares, and how far they spread.
+fn median(mut shares: Vec<f64>) -> Price {
+    shares.sort_by(f64::total_cmp);
+    let middle = shares.len() / 2;
+    let spread = (shares[shares.len() - 1] - shares[0]) / 2.0;
+    Price { share: (shares[middle - 1] + shares[middle]) / 2.0, spread }
 }
 
 /// The memory that this process holds, in bytes, where the system says.

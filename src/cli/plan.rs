@@ -7,7 +7,10 @@ use super::plan_page::Page;
 use super::render::wish;
 use super::session::Session;
 use super::{Exit, fail, print};
-use crate::plan::Wanted;
+use crate::check::Checked;
+use crate::diag::Problems;
+use crate::lower::Lowered;
+use crate::plan::{Plan, Wanted};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -32,8 +35,8 @@ pub struct PlanArgs {
     /// Render small pictures with and without each effect, and say what it adds to the time
     #[arg(long)]
     measure: bool,
-    /// With `--measure`: what each line costs, in time, rays and noise
-    #[arg(long, value_name = "WHAT", requires = "measure")]
+    /// What each line costs, in time, rays and noise, and what the scene takes without the dearest ones
+    #[arg(long, value_name = "WHAT")]
     by: Option<By>,
     /// The form of the result
     #[arg(long, value_name = "FORM", default_value = "human")]
@@ -95,7 +98,11 @@ fn text(args: &PlanArgs, session: &mut Session) -> Option<String> {
     let by_line = match (&mut pilot, args.by) {
         (Some(pilot), Some(By::Line)) => {
             let books = pilot.books()?;
-            Some(ByLine::new(&books, pilot.spans(), loaded.scene, session))
+            let mut by_line = ByLine::new(&books, pilot.spans(), loaded.scene, session);
+            let fewer = |place: String| Some((without(&place, pilot, &checked, args, session)?, place));
+            let (others, places): (Vec<_>, Vec<_>) = by_line.dearest().into_iter().filter_map(fewer).unzip();
+            places.iter().zip(pilot.savings(&others)).for_each(|(place, saving)| by_line.note(place, saving));
+            Some(by_line)
         }
         _ => None,
     };
@@ -114,4 +121,20 @@ fn text(args: &PlanArgs, session: &mut Session) -> Option<String> {
         Format::Human => page.human(),
         Format::Json => format!("{:#}\n", page.json()),
     })
+}
+
+/// The scene without what a line puts into it, planned anew and ready for the pilot.
+fn without(
+    place: &str,
+    pilot: &Pilot<'_>,
+    checked: &Checked,
+    args: &PlanArgs,
+    session: &Session,
+) -> Option<(Lowered, Plan)> {
+    let fewer = checked.without(|span| session.line(span) == place);
+    // What is missed for its absence, such as the light, is not worth a word.
+    let loaded = crate::load::load(&fewer, &session.sources, &session.files, &mut Problems::default())?;
+    let mut plan = crate::plan::plan(&loaded, Some(pilot.camera()), wish(args.method));
+    plan.want(&args.effects);
+    Some((pilot.lowered(&loaded, &plan, session)?, plan))
 }

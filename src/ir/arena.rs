@@ -43,7 +43,7 @@ impl<T> fmt::Debug for Handle<T> {
 }
 
 /// A growing list; elements are never removed.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Arena<T>(Vec<T>);
 
 impl<T> Default for Arena<T> {

@@ -22,7 +22,7 @@ pub use material::{
 pub use shape::{Caps, Curve, CurveKind, Heights, Method as RevolveMethod, Outline, Path, Shape, ShapeKind};
 
 /// A whole scene.
-#[derive(Default, Debug)]
+#[derive(Clone, Default, Debug)]
 pub struct Scene {
     /// Every shape that is placed at least once.
     pub shapes: Arena<Shape>,

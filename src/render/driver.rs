@@ -253,7 +253,13 @@ fn run<I: Integrator>(
             indices.for_each(|i| pixel_seconds[i] += share);
         }
         let samples: Vec<Tile> = done.into_iter().map(|done| done.tile).collect();
+        if world.is_watched {
+            ledger::film(true);
+        }
         film.add_blurred_pass(&samples, integrator.blur());
+        if world.is_watched {
+            ledger::film(false);
+        }
         let seconds = start.elapsed().as_secs_f64();
         monitor.pass_done(&Progress { film: &film, seconds, counters: stats.counters });
     };
@@ -320,6 +326,9 @@ fn render_group<I: Integrator>(
 ) -> Vec<([u32; 2], Rgb)> {
     let picture = Region { x: 0, y: 0, width: world.camera.width(), height: world.camera.height() };
     let (mut pixels, mut cameras) = (Vec::new(), Vec::new());
+    if world.is_watched {
+        ledger::begin_group();
+    }
     for pixel in group.clipped(&picture).pixels() {
         let (sampler, ray) = camera_ray(world, pass, pixel, integrator.is_of_a_moment());
         if let Some(CameraRay { ray, weight }) = ray {

@@ -82,4 +82,6 @@ fn a_plan_is_also_for_programs() {
     assert!(plan["expected"]["film_bytes"].as_u64() > Some(1000));
     let lines = plan["by_line"]["objects"].as_array().expect("costs are booked");
     assert!(lines.iter().any(|line| line["place"] == "s.snell:8" && line["rays"].as_u64() > Some(0)));
+    let without: Vec<bool> = lines.iter().map(|line| line["without"]["share"].is_number()).collect();
+    assert!(without[0] && without.is_sorted_by(|dearer, cheaper| dearer >= cheaper), "{without:?}");
 }
