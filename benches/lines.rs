@@ -33,10 +33,10 @@ const SCENES: [&str; 6] = [
 ];
 /// Pixels in a row of the pictures.
 const WIDTH: u32 = 320;
-/// Renders each way, of which the quickest counts.
+/// Renders each way; an odd number has a middle.
 const ROUNDS: u32 = 5;
 /// What a render takes at least, in seconds.
-const LEAST_SECONDS: f64 = 1.5;
+const LEAST_SECONDS: f64 = 1.0;
 
 const PAGE: &str = "docs/effects.md";
 const HEADING: &str = "\n## What each line costs\n";
@@ -70,8 +70,8 @@ fn section(rows: &str) -> String {
         "{HEADING}
 `snell plan SCENE --by line` renders a small picture and books what each object costs: the time from a vertex of a path on it
 to the next vertex, its rays, and the noise of what is seen of it. One path in {TIMED} is timed. This table says what comes of
-it, for pictures {WIDTH} pixels wide, in processor time of one thread, of the quickest of {ROUNDS} renders each way that
-took turns; `cargo bench --bench lines` writes it.
+it, for pictures {WIDTH} pixels wide, in processor time of one thread, as the median of {ROUNDS} pairs of renders that
+took turns, ± half their range; `cargo bench --bench lines` writes it.
 
 - *watching*: how much longer a render takes that is booked.
 - *accounts*: all accounts together, as a share of the time of the render.
@@ -99,13 +99,13 @@ fn measure(scene: &str) -> Result<String, Box<dyn Error>> {
     let (fewer, other_plan, _) = built(scene, &deleted(&text, line)?)?;
 
     let passes = (LEAST_SECONDS / seconds(&whole, &plan, 1)).ceil().clamp(1.0, 256.0) as u32;
-    let [mut own, mut other, mut watched] = [f64::INFINITY; 3];
+    let (mut deletion, mut watching) = (Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
-        own = own.min(seconds(&whole, &plan, passes));
-        other = other.min(seconds(&fewer, &other_plan, passes));
+        let own = seconds(&whole, &plan, passes);
+        deletion.push(seconds(&fewer, &other_plan, passes) / own - 1.0);
         whole.world.is_watched = true;
         ledger::open();
-        watched = watched.min(seconds(&whole, &plan, passes));
+        watching.push(seconds(&whole, &plan, passes) / own - 1.0);
         ledger::close();
         whole.world.is_watched = false;
     }
@@ -114,13 +114,13 @@ fn measure(scene: &str) -> Result<String, Box<dyn Error>> {
     let mut row = String::new();
     writeln!(
         row,
-        "| `{scene}` | {:+.1} % | {:.1} % | {place}, {:.1} % | {:+.1} ± {:.1} % | {:+.1} % |",
-        100.0 * (watched / own - 1.0),
+        "| `{scene}` | {} | {:.1} % | {place}, {:.1} % | {:+.1} ± {:.1} % | {} |",
+        middle(watching),
         number(&by_line["attributed"]),
         number(&first["time"]),
         number(&first["without"]["share"]),
         number(&first["without"]["spread"]),
-        100.0 * (other / own - 1.0),
+        middle(deletion),
     )?;
     Ok(row)
 }
@@ -187,4 +187,11 @@ fn seconds(lowered: &Lowered, plan: &Plan, passes: u32) -> f64 {
     let start = ThreadTime::now();
     render(&lowered.world, &settings, &());
     start.elapsed().as_secs_f64()
+}
+
+/// The middle of some shares, and how far they spread.
+fn middle(mut shares: Vec<f64>) -> String {
+    shares.sort_by(f64::total_cmp);
+    let spread = (shares[shares.len() - 1] - shares[0]) / 2.0;
+    format!("{:+.1} ± {:.1} %", 100.0 * shares[shares.len() / 2], 100.0 * spread)
 }

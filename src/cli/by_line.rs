@@ -48,7 +48,8 @@ impl ByLine {
     pub fn new(books: &Books, spans: &[Span], scene: &Scene, session: &Session) -> Self {
         let ledger = &books.ledger;
         // Photons are as many as for the whole picture, camera paths are fewer.
-        let photons = ledger.photons.nanos as f64 * 1e-9;
+        let seconds_whole = |account: &Account| account.nanos as f64 * 1e-9 * books.own;
+        let photons = ledger.photons.nanos as f64 * 1e-9 + seconds_whole(&ledger.map);
         let total = photons + (books.seconds - ledger.clock_seconds() - photons) * books.larger;
         let seconds_of = |account| ledger.seconds(account) * books.larger;
         let by_span: HashMap<Span, &Object> = scene.objects.iter().map(|o| (o.span, o)).collect();
@@ -68,7 +69,7 @@ impl ByLine {
             materials: materials.dearest_first(),
             camera: seconds_of(&ledger.camera),
             photons,
-            film: ledger.film.nanos as f64 * 1e-9 * books.larger,
+            film: seconds_whole(&ledger.film) * books.larger,
             total,
             noise,
         }

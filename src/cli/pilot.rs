@@ -9,7 +9,7 @@ use crate::plan::{Effect, Plan, Wanted};
 use crate::render::ledger::{self, Ledger};
 use crate::render::{Outcome, Settings, render};
 use crate::source::Span;
-use crate::study::clock::Clock;
+use crate::study::clock::{Clock, Seconds};
 
 /// The longer side of a small picture, in pixels.
 const SIDE: u32 = 160;
@@ -18,7 +18,9 @@ const ROUNDS: u64 = 4;
 /// How many times as many passes are booked as timed.
 const BOOKED: u32 = 6;
 /// What a render takes at least that is compared with one without something, in seconds of processor time.
-const COMPARED_SECONDS: f64 = 0.4;
+const COMPARED_SECONDS: f64 = 0.3;
+/// How often these take turns.
+const TURNS: u32 = 6;
 /// Passes of a small picture that takes less time than this are made more of, in seconds of processor time.
 const LEAST_SECONDS: f64 = 0.15;
 
@@ -53,6 +55,8 @@ pub struct Price {
 pub struct Books {
     pub ledger: Ledger,
     pub seconds: f64,
+    /// How much of the time on the wall that is.
+    pub own: f64,
     /// How many times as many camera paths the whole picture has.
     pub larger: f64,
 }
@@ -178,29 +182,24 @@ impl<'a> Pilot<'a> {
             ledger::open();
             let clock = Clock::start();
             passes(lowered, plan, count, 2);
-            let seconds = clock.seconds().cpu;
-            Some(Books { ledger: ledger::close()?, seconds, larger })
+            let Seconds { cpu, wall } = clock.seconds();
+            Some(Books { ledger: ledger::close()?, seconds: cpu, own: cpu / wall, larger })
         });
         self.lowered.world.is_watched = false;
         books
     }
 
     /// The share of the time that the whole picture takes less, for each of these scenes that are to be like this one but for
-    /// something. All are rendered in turns; the quickest of each counts, as what else the machine does only adds to a time.
+    /// something. All are rendered in turns.
     pub fn savings(&self, others: &[(Lowered, Plan)]) -> Vec<Price> {
-        let count = others.len() + 1;
-        let mut times: Vec<Vec<f64>> = vec![Vec::new(); count];
-        for _ in 0..ROUNDS {
-            times[0].push(self.whole_seconds(&self.lowered, self.plan));
-            for (times, (lowered, plan)) in times[1..].iter_mut().zip(others) {
-                times.push(self.whole_seconds(lowered, plan));
+        let mut savings: Vec<Vec<f64>> = vec![Vec::new(); others.len()];
+        for _ in 0..TURNS {
+            let own = self.whole_seconds(&self.lowered, self.plan);
+            for (savings, (lowered, plan)) in savings.iter_mut().zip(others) {
+                savings.push(1.0 - self.whole_seconds(lowered, plan) / own);
             }
         }
-        times.iter_mut().for_each(|times| times.sort_by(f64::total_cmp));
-        let saving = |other: &Vec<f64>, rank: usize| 1.0 - other[rank] / times[0][rank];
-        let price =
-            |other| Price { share: saving(other, 0), spread: (saving(other, 1) - saving(other, 0)).abs() };
-        times[1..].iter().map(price).collect()
+        savings.into_iter().map(median).collect()
     }
 
     /// Another scene as a small picture, for [`Pilot::savings`].

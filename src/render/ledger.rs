@@ -34,9 +34,11 @@ pub struct Ledger {
     pub camera: Account,
     /// Nanoseconds that went to none: the system ran something else.
     pub interrupted: Account,
-    /// Of photons, from their lights to the map. All of it is timed.
+    /// Of photons, on their way. All of it is timed.
     pub photons: Account,
-    /// Of the film. All of it is timed.
+    /// Of the map of photons: all of it, with what the system did meanwhile.
+    pub map: Account,
+    /// Of the film, likewise.
     pub film: Account,
     /// By [`SourceId`].
     pub objects: Vec<Account>,
@@ -73,6 +75,7 @@ pub struct Account {
 enum Whose {
     Camera,
     Photons,
+    Map,
     Film,
     Object(SourceId),
     /// Those of [`Ledger::sharers`], in equal parts.
@@ -97,7 +100,10 @@ fn nanos_a_look() -> f64 {
     const LOOKS: u32 = 64;
     let series = |_| {
         let start = Instant::now();
-        let last = (0..LOOKS).map(|_| Instant::now()).last().unwrap_or(start);
+        let mut last = start;
+        for _ in 0..LOOKS {
+            last = Instant::now();
+        }
         last.duration_since(start).as_nanos() as f64 / f64::from(LOOKS)
     };
     (0..32).map(series).fold(f64::INFINITY, f64::min)
@@ -233,13 +239,12 @@ impl Ledger {
         self.looks += u64::from(now.is_some());
         if let (Some(whose), Some(since), Some(now)) = (self.whose, self.since, now) {
             let nanos = now.duration_since(since).as_nanos() as u64;
-            // The tree over the photons, and the film, are one piece of work.
-            let is_whole = match whose {
-                Whose::Photons => next.is_none(),
-                Whose::Film => true,
-                Whose::Camera | Whose::Object(_) | Whose::Sharers => false,
+            // The map, made when the last photon has landed, and the film are one piece of work.
+            let whose = match whose {
+                Whose::Photons if next.is_none() => Whose::Map,
+                whose => whose,
             };
-            let is_own = is_whole || nanos < LONGEST;
+            let is_own = matches!(whose, Whose::Map | Whose::Film) || nanos < LONGEST;
             self.book(whose, is_own, nanos.saturating_sub(self.nanos_a_look as u64));
         }
         self.sharers.clear();
@@ -251,6 +256,7 @@ impl Ledger {
             _ if !is_own => self.interrupted.nanos += nanos,
             Whose::Camera => self.camera.nanos += nanos,
             Whose::Photons => self.photons.nanos += nanos,
+            Whose::Map => self.map.nanos += nanos,
             Whose::Film => self.film.nanos += nanos,
             Whose::Object(object) => self.account(object).nanos += nanos,
             Whose::Sharers => {
