@@ -126,7 +126,9 @@ fn measure(scene: &str) -> Result<String, Box<dyn Error>> {
 }
 
 /// A scene ready to be rendered, its plan, and the size of its picture.
-fn built(scene: &str, text: &str) -> Result<(Lowered, Plan, (u32, u32)), Box<dyn Error>> {
+type Built = (Lowered, Plan, (u32, u32));
+
+fn built(scene: &str, text: &str) -> Result<Built, Box<dyn Error>> {
     let path = Path::new(scene);
     let files = Disk::new(path, Vec::new(), false);
     let (mut sources, mut problems) = (SourceMap::default(), Problems::default());
