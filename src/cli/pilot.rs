@@ -98,7 +98,7 @@ pub struct Pilot<'a> {
     /// Processor seconds of a pass of the small picture.
     pass_seconds: f64,
     passes: u32,
-    /// A single thread. It lives as long as this: one that ends takes its time with it, which the clock then misses.
+    /// A single thread, for all that is booked or compared.
     alone: Option<rayon::ThreadPool>,
 }
 

@@ -1,5 +1,6 @@
 //! Time as the user waits for it, and as the processor spends it.
 
+use cpu_time::ProcessTime;
 use std::time::Instant;
 
 /// Seconds since a moment.
@@ -7,7 +8,7 @@ use std::time::Instant;
 pub struct Seconds {
     /// On the wall.
     pub wall: f64,
-    /// Of all threads of this process together; that of the wall where the system does not tell.
+    /// Of all threads of this process together, those that have ended too; that of the wall where the system does not tell.
     pub cpu: f64,
 }
 
@@ -44,21 +45,16 @@ impl Clock {
     }
 }
 
-/// The processor time of all threads that this process has now.
-///
-/// Linux tells it to the nanosecond, up to the last turn of the scheduler; other systems have no file for it.
+/// The processor time of all threads that this process has, and of those that it had.
 fn process_seconds() -> Option<f64> {
-    let of_thread = |entry: std::io::Result<std::fs::DirEntry>| {
-        let text = std::fs::read_to_string(entry.ok()?.path().join("schedstat")).ok()?;
-        text.split_whitespace().next()?.parse::<u64>().ok()
-    };
-    let threads: Vec<u64> = std::fs::read_dir("/proc/self/task").ok()?.filter_map(of_thread).collect();
-    (!threads.is_empty()).then(|| threads.into_iter().sum::<u64>() as f64 * 1e-9)
+    ProcessTime::try_now().ok().map(|time| time.as_duration().as_secs_f64())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cpu_time::ThreadTime;
+    use std::time::Duration;
 
     #[test]
     fn work_takes_time_on_both() {
@@ -69,5 +65,19 @@ mod tests {
         }
         let seconds = clock.seconds();
         assert!(sum > 0.0 && seconds.wall >= 0.05 && seconds.cpu > 0.0, "{seconds:?}");
+    }
+
+    #[test]
+    fn a_thread_that_has_ended_leaves_its_time() {
+        const WORK: Duration = Duration::from_millis(20);
+        let clock = Clock::start();
+        let work = || {
+            let start = ThreadTime::now();
+            while start.elapsed() < WORK {
+                std::hint::spin_loop();
+            }
+        };
+        std::thread::spawn(work).join().expect("it only waits");
+        assert!(clock.seconds().cpu >= WORK.as_secs_f64(), "{:?}", clock.seconds());
     }
 }
