@@ -9,6 +9,8 @@
 //! of the render alone, and medians of
 //! relMSE = mean((x − r)² / (r² + 0.01)) over pixels and channels, the same without the worst 0.1 % of pixels, and
 //! E = 1 / (relMSE × CPU seconds); the ratio of the pictures' means by channel; and the resident size at its largest.
+//! `own` is what the streams of a picture say of its noise, as relMSE by the same measure, and the E of that. What relMSE has
+//! beside it is the reference's noise, and bias: two pictures with different seeds have it in common.
 //! `foot` is the mean under the foot of S4's glass, rows 320 to 383 and columns 128 to 255: by path tracing 0.274.
 
 use snell::diag::Problems;
@@ -32,7 +34,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         return render_one(&arguments[1..]);
     }
     let job = Job::of(&arguments)?;
-    println!("scene  spp   CPU s    relMSE   trimmed        E   mean ratio r g b        foot  RSS MB");
+    println!(
+        "scene  spp   CPU s    relMSE   trimmed        E       own        E   mean ratio r g b        foot  RSS MB"
+    );
     for scene in &job.scenes {
         for &spp in &job.passes {
             let runs: Result<Vec<Run>, _> =
@@ -93,6 +97,7 @@ struct Run {
 struct ErrorOf {
     rel_mse: f64,
     trimmed: f64,
+    own: f64,
     ratio: [f64; 3],
 }
 
@@ -112,7 +117,7 @@ fn run(job: &Job, scene: &str, spp: u32, seed: u64) -> Result<Run, Box<dyn Error
         return Err("a render reported less than it should".into());
     };
     let error = match *error {
-        [rel_mse, trimmed, r, g, b] => Some(ErrorOf { rel_mse, trimmed, ratio: [r, g, b] }),
+        [rel_mse, trimmed, own, r, g, b] => Some(ErrorOf { rel_mse, trimmed, own, ratio: [r, g, b] }),
         _ => None,
     };
     Ok(Run { cpu_seconds, rss_mb, foot, error })
@@ -130,11 +135,11 @@ fn print(scene: &str, spp: u32, runs: &[Run]) {
     }
     let rel_mse = median(errors.iter().map(|error| error.rel_mse));
     let trimmed = median(errors.iter().map(|error| error.trimmed));
+    let own = median(errors.iter().map(|error| error.own));
     let [r, g, b] = [0, 1, 2].map(|channel| median(errors.iter().map(|error| error.ratio[channel])));
-    let efficiency = 1.0 / (rel_mse * cpu);
-    println!(
-        "{scene:5} {spp:4} {cpu:7.2} {rel_mse:9.5} {trimmed:9.5} {efficiency:8.2}   {r:.4} {g:.4} {b:.4} {foot:>9} {rss:7.0}"
-    );
+    let (efficiency, of_own) = (1.0 / (rel_mse * cpu), 1.0 / (own * cpu));
+    print!("{scene:5} {spp:4} {cpu:7.2} {rel_mse:9.5} {trimmed:9.5} {efficiency:8.2} {own:9.5} {of_own:8.2}");
+    println!("   {r:.4} {g:.4} {b:.4} {foot:>9} {rss:7.0}");
 }
 
 fn median(values: impl Iterator<Item = f64>) -> f64 {
@@ -156,8 +161,9 @@ fn render_one(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     if let Ok(reference) = image::open(Path::new(references).join(scene).with_extension("exr")) {
         let reference = reference.into_rgb32f();
         let reference: Vec<Rgb> = reference.pixels().map(|pixel| Rgb::from(pixel.0)).collect();
-        let ErrorOf { rel_mse, trimmed, ratio: [r, g, b] } = error(&picture, &reference)?;
-        print!(" {rel_mse} {trimmed} {r} {g} {b}");
+        let variance = outcome.film.variance().ok_or("one pass says nothing of its noise")?;
+        let ErrorOf { rel_mse, trimmed, own, ratio: [r, g, b] } = error(&picture, &variance, &reference)?;
+        print!(" {rel_mse} {trimmed} {own} {r} {g} {b}");
     }
     println!();
     Ok(())
@@ -202,23 +208,25 @@ fn foot(picture: &[Rgb], width: usize) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-fn error(picture: &[Rgb], reference: &[Rgb]) -> Result<ErrorOf, Box<dyn Error>> {
+fn error(picture: &[Rgb], variance: &[Rgb], reference: &[Rgb]) -> Result<ErrorOf, Box<dyn Error>> {
     if picture.len() != reference.len() {
         return Err("the reference has another size".into());
     }
-    let term = |x: f32, r: f32| {
-        let (x, r) = (f64::from(x), f64::from(r));
-        (x - r) * (x - r) / (r * r + 0.01)
-    };
+    let relative = |square: f64, r: f32| square / (f64::from(r) * f64::from(r) + 0.01);
+    let term = |x: f32, r: f32| relative((f64::from(x) - f64::from(r)).powi(2), r);
     let pairs = || picture.iter().zip(reference);
     let mut terms: Vec<f64> =
         pairs().map(|(x, r)| [0, 1, 2].map(|c| term(x[c], r[c])).iter().sum::<f64>() / 3.0).collect();
     terms.sort_by(f64::total_cmp);
     let mean = |terms: &[f64]| terms.iter().sum::<f64>() / terms.len() as f64;
+    let noise = variance.iter().zip(reference);
+    let noise =
+        noise.map(|(v, r)| [0, 1, 2].map(|c| relative(f64::from(v[c]), r[c])).iter().sum::<f64>() / 3.0);
+    let own = noise.sum::<f64>() / reference.len() as f64;
     let kept = (terms.len() as f64 * 0.999) as usize;
     let sum = |picture: &[Rgb], c| picture.iter().map(|pixel| f64::from(pixel[c])).sum::<f64>();
     let ratio = [0, 1, 2].map(|c| sum(picture, c) / sum(reference, c));
-    Ok(ErrorOf { rel_mse: mean(&terms), trimmed: mean(&terms[..kept]), ratio })
+    Ok(ErrorOf { rel_mse: mean(&terms), trimmed: mean(&terms[..kept]), own, ratio })
 }
 
 /// CPU seconds of all threads so far, where the system tells (Linux); elsewhere seconds of wall time.
