@@ -13,6 +13,7 @@
 //! beside it is the reference's noise, and bias: two pictures with different seeds have it in common.
 //! `foot` is the mean under the foot of S4's glass, rows 320 to 383 and columns 128 to 255: by path tracing 0.274.
 
+use cpu_time::ProcessTime;
 use snell::diag::Problems;
 use snell::math::Rgb;
 use snell::plan::Plan;
@@ -191,9 +192,9 @@ fn render(file: &Path, passes: u32, seed: u64, method: &str) -> Result<(Outcome,
         snell::lower::lower(&loaded, &plan, camera, &files, &mut problems).ok_or("a picture is broken")?;
     drop(loaded);
     let settings = Settings { seed, ..Settings::new(lowered.method, plan.depth, passes) };
-    let start = cpu_seconds();
+    let start = ProcessTime::now();
     let outcome = snell::render::render(&lowered.world, &settings, &());
-    Ok((outcome, cpu_seconds() - start))
+    Ok((outcome, start.elapsed().as_secs_f64()))
 }
 
 /// Whether the mesh that is made, not kept, is missing.
@@ -227,18 +228,6 @@ fn error(picture: &[Rgb], variance: &[Rgb], reference: &[Rgb]) -> Result<ErrorOf
     let sum = |picture: &[Rgb], c| picture.iter().map(|pixel| f64::from(pixel[c])).sum::<f64>();
     let ratio = [0, 1, 2].map(|c| sum(picture, c) / sum(reference, c));
     Ok(ErrorOf { rel_mse: mean(&terms), trimmed: mean(&terms[..kept]), own, ratio })
-}
-
-/// CPU seconds of all threads so far, where the system tells (Linux); elsewhere seconds of wall time.
-fn cpu_seconds() -> f64 {
-    let nanoseconds = |task: std::io::Result<std::fs::DirEntry>| {
-        let text = std::fs::read_to_string(task.ok()?.path().join("schedstat")).ok()?;
-        text.split_whitespace().next()?.parse::<f64>().ok()
-    };
-    match std::fs::read_dir("/proc/self/task") {
-        Ok(tasks) => tasks.filter_map(nanoseconds).sum::<f64>() * 1e-9,
-        Err(_) => std::time::UNIX_EPOCH.elapsed().map_or(f64::NAN, |time| time.as_secs_f64()),
-    }
 }
 
 /// A line of what the system says about this process, in kB.

@@ -256,11 +256,12 @@ fn printed_intervals_of_photons_hold_the_truth_at_length() {
     for (worlds, method) in [(scenes(16), ppm()), (caustic_scenes(16), hybrid())] {
         let found = photon_coverage(worlds, method, 8192, 200, 64);
         println!("{method:?}: {found:?}");
-        // Bounds, and what is made of them, are on the safe side; so are the intervals of noise for photons beside paths, made
-        // as wide as those for photons alone need them.
-        for of in [|p: &Photons| p.noise, |p: &Photons| p.least, |p: &Photons| p.most, |p: &Photons| p.total]
-        {
+        for of in [|p: &Photons| p.least, |p: &Photons| p.most] {
             assert!(share(&found, of) >= 0.92, "{method:?}: {found:?}");
+        }
+        // Not reached: intervals of noise for photons beside paths are as wide as photons alone need them, and hold all.
+        for of in [|p: &Photons| p.noise, |p: &Photons| p.total] {
+            assert!((0.92..=0.975).contains(&share(&found, of)), "{method:?}: {found:?}");
         }
     }
 }
@@ -353,9 +354,9 @@ fn the_passes_that_are_left_are_foretold_at_length() {
     let found = prophecies(48, 20, 1.0);
     let (near, left) = quality(&found);
     println!("{near} within 0.7 to 1.5, {left} of what is left");
-    // Of eight streams, how far their pictures' errors differ is known to a quarter, and that decides about a seventh of the
-    // passes, when they are foretold as well as when the render stops.
-    assert!(near >= 0.8 && left < 0.3, "{near} {left}: {found:.2?}");
+    // Not reached: of what is left 0.24 is the middle error. How far the errors of eight streams differ is known to a quarter, and
+    // that decides about a seventh of the passes, when they are foretold as well as when the render stops.
+    assert!(near >= 0.8 && left < 0.15, "{near} {left}: {found:.2?}");
 }
 
 #[test]

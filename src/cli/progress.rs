@@ -52,10 +52,11 @@ impl Bar {
     }
 }
 
-/// How many times the passes foretold an error takes, in four of five renders.
+/// How many times what is foretold of an error is left, in four of five renders.
 const FORETOLD: (f64, f64) = (0.7, 1.5);
 
-/// The seconds left until the first of the stops, as an interval; `None` before anything is known.
+/// The seconds left until the first of the stops, as an interval that narrows as they become fewer; `None` before anything is
+/// known.
 fn left(
     stop: &Stop,
     passes: u32,
@@ -67,9 +68,9 @@ fn left(
     let by_passes = stop.passes.map(|most| until(f64::from(most))).map(|s| (s, s));
     let by_time = stop.seconds.map(|most| (most - seconds).max(0.0)).map(|s| (s, s));
     let by_error = stop.error.zip(estimate).map(|(target, (at, estimate))| {
-        let needed = f64::from(at) * estimate.effort_to(target);
+        let left = until(f64::from(at) * estimate.effort_to(target));
         let (least, most) = FORETOLD;
-        (until(least * needed), until(most * needed))
+        (least * left, most * left)
     });
     let all = [by_passes, by_time, by_error].into_iter().flatten();
     all.reduce(|a, b| (a.0.min(b.0), a.1.min(b.1)))
@@ -156,7 +157,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_time_left_is_to_the_first_stop() {
+    fn the_time_left_is_to_the_first_stop_and_narrows() {
         let estimate = |spread: f64| {
             let interval = Some((0.02 / spread, 0.02 * spread));
             Some((100, ErrorEstimate { error: 0.02, interval, trimmed: 0.02, steady: 1.0, blur: None }))
@@ -166,6 +167,13 @@ mod tests {
         assert!(low < 30.0 && 30.0 < high, "four times the passes are needed: {low} to {high}");
         let (_, farther) = left(&by_error, 100, 10.0, estimate(1.3)).unwrap();
         assert!(farther > high, "the upper end of a wider interval has farther to fall");
+        let later = ErrorEstimate {
+            error: 0.02 / 3.0_f64.sqrt(),
+            interval: Some((0.0105, 0.0127)),
+            ..estimate(1.1).unwrap().1
+        };
+        let (late_low, late_high) = left(&by_error, 300, 30.0, Some((300, later))).unwrap();
+        assert!(late_high - late_low < 0.6 * (high - low), "{late_low} to {late_high} after {low} to {high}");
         let or_time = Stop { seconds: Some(15.0), ..by_error };
         assert_eq!(left(&or_time, 100, 10.0, estimate(1.1)), Some((5.0, 5.0)));
         let passes = Stop { passes: Some(400), ..Stop::default() };

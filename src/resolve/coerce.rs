@@ -323,15 +323,7 @@ impl<'a> Resolver<'a> {
 /// Whether a text would be a value of this type if it stood without its quotes.
 fn is_written_bare(words: &str, ty: Type) -> bool {
     let is_number = Dimension::of(ty).is_some() && (words.parse::<f64>().is_ok() || unit_of(words).is_some());
-    let takes_color = matches!(
-        ty,
-        Type::Color
-            | Type::LightColor
-            | Type::Radiance
-            | Type::ColorInput
-            | Type::SkyInput
-            | Type::Absorption
-    );
+    let takes_color = ty.takes_color() || ty == Type::Absorption;
     is_number || takes_color && color::named(words).is_some() || is_word_of(ty, words)
 }
 
@@ -379,16 +371,7 @@ fn find_word(words: &'static [&'static str], name: &str) -> Option<&'static str>
 /// A colour, or a plain number as grey, where the type takes them.
 fn as_color(value: &Value, ty: Type) -> Option<Rgb> {
     let grey_only = ty == Type::NumberInput;
-    let takes_color = matches!(
-        ty,
-        Type::Color
-            | Type::LightColor
-            | Type::Radiance
-            | Type::ColorInput
-            | Type::RadianceInput
-            | Type::NumberInput
-            | Type::SkyInput
-    );
+    let takes_color = ty.takes_color() || grey_only;
     match value {
         Value::Color(color) if takes_color && !grey_only => Some(*color),
         Value::Number(q) if takes_color && q.dimension == Dimension::NONE => Some(Rgb::gray(q.value as f32)),

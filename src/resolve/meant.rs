@@ -145,8 +145,8 @@ fn fits(definition: &Definition, wanted: Wanted) -> bool {
 /// Whether a value is about what a type wants.
 fn is_like(value: &Value, ty: Type) -> bool {
     use Type::{
-        Absorption, Bool, Cells, Color, ColorInput, Curve, Focus, LightColor, List, Material, Object, Offset,
-        Outline, Outlines, Pair, Point, Radiance, RadianceInput, SkyInput, Text, Texture, Transform, Vector,
+        Absorption, Bool, Cells, ColorInput, Curve, Focus, List, Material, Object, Offset, Outline, Outlines,
+        Pair, Point, RadianceInput, SkyInput, Text, Texture, Transform, Vector,
     };
     match value {
         Value::Number(Quantity { dimension, .. }) => {
@@ -154,9 +154,7 @@ fn is_like(value: &Value, ty: Type) -> bool {
         }
         Value::Bool(_) => ty == Bool,
         Value::Text(_) => ty == Text,
-        Value::Color(_) => {
-            matches!(ty, Color | LightColor | Radiance | ColorInput | RadianceInput | SkyInput | Absorption)
-        }
+        Value::Color(_) => ty.takes_color() || ty == Absorption,
         Value::Tuple(_) => matches!(ty, Point | Offset | Vector | Pair | Cells | Focus),
         Value::List(_) => matches!(ty, List | Outlines),
         Value::Transform(_) => ty == Transform,
@@ -192,17 +190,7 @@ fn known_words<'n>(wanted: Wanted) -> impl Iterator<Item = (&'n str, bool)> {
     let functions = builtin::names()
         .filter(move |_| is_function || any)
         .map(move |name| -> (&'n str, bool) { (name, is_function) });
-    let takes_color = ty.is_some_and(|ty| {
-        matches!(
-            ty,
-            Type::Color
-                | Type::LightColor
-                | Type::Radiance
-                | Type::ColorInput
-                | Type::RadianceInput
-                | Type::SkyInput
-        )
-    });
+    let takes_color = ty.is_some_and(Type::takes_color);
     let colors = schema::COLORS
         .iter()
         .filter(move |_| takes_color || any)

@@ -113,6 +113,19 @@ const fn named(name: &'static str, ty: Type, doc: &'static str) -> NamedType {
 }
 
 impl Type {
+    /// Whether a colour stands there by itself.
+    pub fn takes_color(self) -> bool {
+        matches!(
+            self,
+            Self::Color
+                | Self::LightColor
+                | Self::Radiance
+                | Self::ColorInput
+                | Self::RadianceInput
+                | Self::SkyInput
+        )
+    }
+
     /// The integrators.
     pub const METHODS: &'static [&'static str] = &["auto", "pt", "ppm", "hybrid", "classic"];
     /// The laws of fading that have a name.

@@ -115,17 +115,17 @@ impl Gathering {
 }
 
 impl PathTracer<'_> {
-    /// Whether paths may look around from a vertex.
-    pub(super) fn looks_around(&self, walk: &Walk, vertex: &Vertex) -> bool {
-        self.gathering.is_some() && !walk.after_wide && vertex.bsdf.matt_albedo().is_some()
+    /// How paths may look around from a vertex, and its albedo.
+    pub(super) fn looks_around(&self, walk: &Walk, vertex: &Vertex) -> Option<(&Gathering, Rgb)> {
+        let gathering = self.gathering.as_ref().filter(|_| !walk.after_wide)?;
+        Some((gathering, vertex.bsdf.matt_albedo()?))
     }
 
     /// How many paths look around from a vertex that sends `lit` on, of the light that lamps and photons brought.
     ///
     /// The fewer the more of its light that is: noise counts in proportion to the whole.
     pub(super) fn gather_count(&self, walk: &Walk, vertex: &Vertex, lit: Rgb) -> u32 {
-        let Some(gathering) = self.gathering.as_ref().filter(|_| !walk.after_wide) else { return 1 };
-        let Some(albedo) = vertex.bsdf.matt_albedo() else { return 1 };
+        let Some((gathering, albedo)) = self.looks_around(walk, vertex) else { return 1 };
         let indirect = albedo.luminance() * gathering.ambient;
         let part = if indirect > 0.0 { indirect / (indirect + lit.luminance()) } else { 0.0 };
         let most = MOST_GATHERS as f32 * gathering.met * walk.share.min(1.0);

@@ -248,7 +248,7 @@ impl PathTracer<'_> {
                 trace.radiance += added;
                 return None;
             }
-            let lit = if self.looks_around(walk, &vertex) {
+            let lit = if self.looks_around(walk, &vertex).is_some() {
                 self.lit_by(LIGHTS, 1.0, walk, &vertex, trace)
             } else {
                 self.lit(walk, &vertex, trace)
